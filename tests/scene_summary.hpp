@@ -41,6 +41,16 @@ inline void addBodies(const World& world, std::ostream& text) {
     for (const WorldBody::Part& part : body.parts)
       addShape(part.shape, part.world_from_shape, text);
   }
+  for (const MovingObstacle& obstacle : world.obstacles()) {
+    text << "moving " << obstacle.name << '\n';
+    for (const MovingObstacle::Part& part : obstacle.parts)
+      addShape(part.shape, part.body_from_shape, text);
+    for (const MovingObstacle::Waypoint& waypoint : obstacle.waypoints) {
+      text << "  at " << waypoint.time << " s";
+      addPose(waypoint.world_from_body, text);
+      text << '\n';
+    }
+  }
 }
 
 inline void addAttached(const std::vector<AttachedBody>& attached, std::ostream& text) {

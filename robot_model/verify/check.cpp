@@ -48,6 +48,7 @@ class ProofCheck {
     requireSameModel(proof_, modelJson);
     model_ = readModel(modelJson);
     requireSameClaims();
+    readClock();
     if (path.contains("trajectory"))
       readTrajectory();
     else
@@ -85,6 +86,18 @@ class ProofCheck {
          {std::pair{"margin_self", model_.selfMargin}, {"margin_world", model_.worldMargin}})
       if ((path_.contains(key) ? path_[key] : path_["margin"]) != margin)
         throw Refusal(std::string(key) + ": it is not that of the model");
+  }
+
+  /// Times of a trajectory are those of the clock, less what it shows at the time 0.
+  void readClock() {
+    if (model_.obstacles.empty()) {
+      if (path_.contains("clock")) throw Refusal("clock: nothing moves but the robot");
+      return;
+    }
+    const std::string& name = model_.bodies[model_.obstacles.begin()->first].name();
+    if (!path_.contains("trajectory"))
+      throw Refusal("body " + name + ": it moves, and a path without times does not say when");
+    model_.clock = readNumber(at(path_, "clock", "path"), "clock");
   }
 
   void readStates() {
@@ -138,9 +151,18 @@ class ProofCheck {
       summary_.allowed[reason].push_back(nameOf({pair.first, pair.second}));
     if (!points_.empty()) summary_.duration = points_.back().time - points_.front().time;
     addTube();
+    addMoving();
     for (const Constraint& constraint : constraints_)
       summary_.constraints.push_back(constraint.text);
     for (const Line& line : lines_) summary_.constraints.push_back(line.text);
+  }
+
+  void addMoving() {
+    for (const auto& [body, obstacle] : model_.obstacles)
+      summary_.moving.push_back(model_.bodies[static_cast<std::size_t>(body)].name());
+    if (summary_.moving.empty()) return;
+    summary_.clockBegin = model_.clock + points_.front().time;
+    summary_.clockEnd = model_.clock + points_.back().time;
   }
 
   /// Joints that follow others are off as far as these let them.

@@ -34,7 +34,12 @@ struct Summary {
   ///@}
   /// Pairs that may touch, `hand - shelf`, by who says so.
   std::map<std::string, std::vector<std::string>> allowed = {};
-  std::optional<double> duration = {};  ///< s, of a trajectory
+  std::optional<double> duration = {};   ///< s, of a trajectory
+  std::vector<std::string> moving = {};  ///< bodies of the world that move
+  ///@{
+  /// s. What their clock shows at the first and the last point; meaningless if there are none.
+  double clockBegin = 0.0, clockEnd = 0.0;
+  ///@}
   /// Of every joint of the group, by name; empty: none has one.
   std::map<std::string, JointTube> tube = {};
   /// What holds at every instant besides, in words: `axis (0, 0, 1) of hand within 0.0873 rad of

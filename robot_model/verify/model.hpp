@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "obstacle.hpp"
 
 /// Checks the proof in a path file. Nothing here searches, and nothing is shared with the library
 /// that found the proof; README.md says what is trusted.
@@ -82,6 +83,9 @@ struct Model {
   std::vector<Variable> variables;
   std::vector<Body> bodies;
   std::vector<int> linkOf;  ///< per body: the link that it moves with; -1: the world
+  /// How bodies of the world move, by index; the others stand.
+  std::map<int, Obstacle> obstacles;
+  double clock = 0.0;  ///< s, what the clock of `obstacles` shows at a trajectory's time 0
   /// Pairs of bodies, by index, smaller first, that may touch, and who says so.
   std::map<std::pair<int, int>, std::string> allowed;
   /// Likewise, links that a joint connects and that must stay apart all the same.

@@ -12,11 +12,10 @@ using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-
 double shorterWay(double from, double to) {
   const double difference = to - from;
-  return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
+  constexpr double kHalf = std::numbers::pi;
+  return std::abs(difference) <= kHalf ? difference : std::remainder(difference, 2.0 * kHalf);
 }
 
 const Joint* jointAbove(const Model& model, int link) {
@@ -126,7 +125,9 @@ Motion::Motion(const Model& model, std::span<const double> from, std::span<const
 }
 
 Motion::Motion(const Model& model, const Point& from, const Point& to)
-    : model_(model), curved_(isCurved(from, to)) {
+    : model_(model),
+      curved_(isCurved(from, to)),
+      clock_(ClockSpan{.clock = model.clock, .from = from.time, .to = to.time}) {
   for (const Joint& joint : model.joints) {
     const bool held = joint.variable < 0;
     const auto first = static_cast<std::size_t>(std::max(joint.variable, 0));

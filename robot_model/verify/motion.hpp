@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,8 @@ class Motion {
   /// At a time. The plays are those of all times within `half` of it.
   Placed at(int link, int reference, double t, double half = 0.0) const;
   Bounds bounds(int link, int reference, double reach, double middle, double half) const;
+  /// The clock of what moves beside the robot. None: the motion has no times.
+  const std::optional<ClockSpan>& clock() const { return clock_; }
   /// A value of a joint, in the units of its kind. The position of a floating joint has three.
   const Course& course(std::size_t joint, std::size_t value) const {
     return joints_[joint].courses[value];
@@ -88,6 +91,7 @@ class Motion {
 
   const Model& model_;
   bool curved_ = false;
+  std::optional<ClockSpan> clock_ = {};
   std::vector<JointMotion> joints_;
 };
 

@@ -40,7 +40,8 @@ std::vector<PairToProve> pairsToProve(const Model& model) {
     for (int b = a + 1; b < count; ++b) {
       const int linkB = model.linkOf[static_cast<std::size_t>(b)];
       const int reference = linkB < 0 ? -1 : commonAncestor(model, linkA, linkB);
-      const bool moved = isMoved(model, linkA, reference) || isMoved(model, linkB, reference);
+      const bool moved = isMoved(model, linkA, reference) || isMoved(model, linkB, reference) ||
+                         model.obstacles.contains(b);
       const bool empty = model.bodies[static_cast<std::size_t>(a)].nodes().empty() ||
                          (model.bodies[static_cast<std::size_t>(b)].nodes().empty() &&
                           model.bodies[static_cast<std::size_t>(b)].flats().empty());
@@ -62,9 +63,14 @@ PairMotion::PairMotion(const Model& model, const Motion& motion, PairToProve pai
   const int reference = linkB < 0 ? -1 : commonAncestor(model, linkA, linkB);
   const double middle = 0.5 * (begin + end);
   a_ = motion.at(linkA, reference, middle, half_);
-  b_ = motion.at(linkB, reference, middle, half_);
   const Bounds boundsA = motion.bounds(linkA, reference, bodyA_.reach(), middle, half_);
-  const Bounds boundsB = motion.bounds(linkB, reference, bodyB_.reach(), middle, half_);
+  Bounds boundsB;
+  if (const auto obstacle = model.obstacles.find(pair.b); obstacle != model.obstacles.end()) {
+    boundsB = placeObstacle(obstacle->second, motion, middle);
+  } else {
+    b_ = motion.at(linkB, reference, middle, half_);
+    boundsB = motion.bounds(linkB, reference, bodyB_.reach(), middle, half_);
+  }
   const double acceleration = boundsA.acceleration + boundsB.acceleration;
   const double size = boundsA.extent + boundsB.extent + bodyA_.size() + bodyB_.size();
   const double turn = 1.0 + boundsA.turn + boundsB.turn;
@@ -74,6 +80,22 @@ PairMotion::PairMotion(const Model& model, const Motion& motion, PairToProve pai
            kRounding * (boundsA.joints + boundsB.joints + 4) * turn * swing * size + kUnderflow;
   // NaN, too: numbers were too large on the way.
   if (!(turn <= kLargest && size <= kLargest)) slack_ = std::numeric_limits<double>::infinity();
+}
+
+Bounds PairMotion::placeObstacle(const Obstacle& obstacle, const Motion& motion, double middle) {
+  if (!motion.clock())
+    throw Refusal("body " + bodyB_.name() +
+                  ": it moves, and a path without times does not say when");
+  const Obstacle::Placed placed = obstacle.at(*motion.clock(), middle);
+  const Obstacle::Bounds own = obstacle.bounds(*motion.clock(), bodyB_.reach(), middle, half_);
+  b_ = {.reference_from_link = placed.world_from_body,
+        .linear = placed.linear,
+        .angular = placed.angular};
+  return {.acceleration = own.deviation,
+          .extent = own.extent,
+          .turn = own.turn,
+          .spin = own.spin,
+          .joints = 1};
 }
 
 double PairMotion::most(const Body& body, int node, const Placed& placed, double s,
@@ -118,7 +140,8 @@ double PairMotion::playOf(const Body& body, int node, const Placed& placed, cons
 double PairMotion::gapToFlat(int nodeA, std::size_t flat, int side) const {
   const Flat& plane = bodyB_.flats()[flat];
   if (plane.solid && side < 0) return -std::numeric_limits<double>::infinity();
-  // From a towards the flat, which stands still: bodies with flats are the world's.
+  // From a towards the flat, which stands still: bodies with flats are the world's, and none of
+  // them moves.
   const Vector3d n = -static_cast<double>(side) * plane.normal;
   const auto at = [&](double s) { return -side * plane.offset - most(bodyA_, nodeA, a_, s, n); };
   return std::min(at(-half_), at(half_)) - playOf(bodyA_, nodeA, a_, n) - slack_;

@@ -50,6 +50,9 @@ class PairMotion {
   /// How far the tolerances take what a node holds along n.
   static double playOf(const Body& body, int node, const Placed& placed, const Eigen::Vector3d& n);
 
+  /// Pose and bounds of b, a body of the world that moves.
+  Bounds placeObstacle(const Obstacle& obstacle, const Motion& motion, double middle);
+
   const Body& bodyA_;
   const Body& bodyB_;
   Placed a_, b_;

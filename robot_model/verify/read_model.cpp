@@ -127,7 +127,10 @@ Variable readVariable(const Json& json) {
 
 void readBody(const Json& json, Model& model) {
   const std::string where = "body " + readText(json, "name", "bodies");
-  const int link = indexOf(model.links, at(json, "link", where), where);
+  // A body that moves has no `link`: what knows no waypoints would take null for one that stands.
+  const bool moves = json.contains("waypoints");
+  if (moves && json.contains("link")) throw Refusal(where + ": it has a link, and waypoints");
+  const int link = moves ? -1 : indexOf(model.links, at(json, "link", where), where);
   if (link >= 0 && !model.linkOf.empty() && model.linkOf.back() < 0)
     throw Refusal(where + ": bodies of the robot come before those of the world");
   ShapeParts parts;
@@ -135,6 +138,10 @@ void readBody(const Json& json, Model& model) {
     readShape(shape, readPose(at(shape, "pose", where), where + ", pose"), where, parts);
   if (link >= 0 && !parts.flats.empty())
     throw Refusal(where + ": a robot has no plane and no half-space");
+  if (moves && !parts.flats.empty())
+    throw Refusal(where + ": what moves has no plane and no half-space");
+  if (moves)
+    model.obstacles.emplace(static_cast<int>(model.bodies.size()), readObstacle(json, where));
   model.bodies.emplace_back(json["name"], std::move(parts.elements), std::move(parts.flats),
                             std::move(parts.solids));
   model.linkOf.push_back(link);

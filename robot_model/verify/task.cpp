@@ -43,6 +43,10 @@ class Phase {
     if (!path_->is_object()) throw Refusal(where_ + ", path: not an object");
     if (!path_->contains("trajectory")) throw Refusal(where_ + ": there is no trajectory");
     modelJson_ = &at(*path_, "model", where_);
+    for (const Json& body : readList(*modelJson_, "bodies", where_))
+      if (body.contains("waypoints"))
+        throw Refusal(where_ + ": a body moves by itself, which none of a task does: " +
+                      body.value("name", Json()).dump());
   }
 
   const std::string& name() const { return name_; }

@@ -439,6 +439,61 @@ std::vector<BadInput> yamlScenes() {
        "@/s.yaml:4: error: object 'crate': meshes[0].triangles[0] must hold 3 vertex indices"},
       {"MeshResource", "s.yaml", boxed("      meshes: [{resource: y.stl}]\n"),
        "@/s.yaml:4: error: mesh 'y.stl' of object 'crate' not found; looked for @/y.stl"},
+      {"MotionNoList", "s.yaml", boxed(box + "      motion: {time: 0}\n"),
+       "@/s.yaml:5: error: object 'crate': motion must be a list"},
+      {"MotionEmpty", "s.yaml", boxed(box + "      motion: []\n"),
+       "@/s.yaml:5: error: object 'crate': motion has no waypoint; one at least is needed, and an "
+       "object that stands has none"},
+      {"MotionNoMapping", "s.yaml", boxed(box + "      motion: [1]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0] must be a mapping"},
+      {"MotionUnknownKey", "s.yaml",
+       boxed(box + "      motion: [{time: 0, position: [0, 0, 0], speed: 1}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0] has the unknown key 'speed'; allowed are "
+       "time, position and orientation"},
+      {"MotionWithoutTime", "s.yaml", boxed(box + "      motion: [{position: [0, 0, 0]}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0].time is missing"},
+      {"MotionTimeNotFinite", "s.yaml",
+       boxed(box + "      motion: [{time: .inf, position: [0, 0, 0]}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0].time is '.inf'; it must be a finite number"},
+      {"MotionTimeNotLater", "s.yaml",
+       boxed(box + "      motion:\n      - {time: 1, position: [0, 0, 0]}\n" +
+             "      - {time: 1, position: [1, 0, 0]}\n"),
+       "@/s.yaml:7: error: object 'crate': motion[1].time is 1; it must be later than that of the "
+       "waypoint before"},
+      {"MotionWithoutPosition", "s.yaml", boxed(box + "      motion: [{time: 0}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0].position is missing"},
+      {"MotionPosition", "s.yaml", boxed(box + "      motion: [{time: 0, position: [0, 1]}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0].position must be 3 numbers [x, y, z]"},
+      {"MotionQuaternion", "s.yaml",
+       boxed(box + "      motion: [{time: 0, position: [0, 0, 0], orientation: [0, 0, 0, 0]}]\n"),
+       "@/s.yaml:5: error: object 'crate': motion[0].orientation is a quaternion (x, y, z, w) of "
+       "length 0; it must be 1 to within 0.01"},
+      {"MotionAndPose", "s.yaml",
+       boxed(box + "      pose: {}\n      motion: [{time: 0, position: [0, 0, 0]}]\n"),
+       "@/s.yaml:5: error: object 'crate': pose and motion say where the object is; one of them is "
+       "allowed"},
+      {"MotionOfPlanes", "s.yaml",
+       boxed("      planes: [{coef: [0, 0, 1, 0]}]\n"
+             "      motion: [{time: 0, position: [0, 0, 0]}]\n"),
+       "@/s.yaml:4: error: object 'crate': planes are of an object with a motion; what has no "
+       "bounds cannot move"},
+      {"MotionOfSubframes", "s.yaml",
+       boxed(box + "      subframe_names: [lid]\n      subframe_poses: [{}]\n"
+                   "      motion: [{time: 0, position: [0, 0, 0]}]\n"),
+       "@/s.yaml:5: error: object 'crate': subframe_names are of an object with a motion; nothing "
+       "can be placed by it"},
+      {"MotionWithoutShapes", "s.yaml", boxed("      motion: [{time: 0, position: [0, 0, 0]}]\n"),
+       "@/s.yaml:3: error: object 'crate': it has no primitives, no meshes and no planes"},
+      {"MotionOfAFrame", "s.yaml",
+       boxed(box +
+             "      motion: [{time: 0, position: [0, 0, 0]}]\n"
+             "    - id: lid\n      header: {frame_id: crate}\n" +
+             box),
+       "@/s.yaml:7: error: object 'lid': header.frame_id is 'crate', an object that moves; a frame "
+       "has to stand"},
+      {"MotionTwice", "s.yaml",
+       boxed(box + "      motion: [{time: 0, position: [0, 0, 0]}]\n    - id: crate\n" + box),
+       "@/s.yaml:6: error: object 'crate': a second object has this id"},
       {"SceneEnding", "s.txt", "x",
        "@/s.txt: error: unknown ending '.txt' of a scene file; allowed are "
        ".yaml, .yml, .scene and .urdf"},
@@ -450,7 +505,7 @@ std::vector<BadInput> yamlKeys() {
   const std::string box = "      primitives: [{type: box, dimensions: [1, 1, 1]}]\n";
   const std::string objectKeys =
       "header, pose, id, type, primitives, primitive_poses, meshes, mesh_poses, planes, "
-      "plane_poses, subframe_names, subframe_poses and operation";
+      "plane_poses, subframe_names, subframe_poses, operation and motion";
   return {
       {"SceneKey", "s.yaml", "wrold: 1\nworld: {}\n",
        "@/s.yaml:1: error: the file has the unknown key 'wrold'; allowed are name, robot_state, "

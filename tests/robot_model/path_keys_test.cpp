@@ -60,6 +60,7 @@ TEST(PathKeys, OfJson) {
                           "margin_world",
                           "tolerance",
                           "clouds",
+                          "clock",
                           "constraints",
                           "lines",
                           "trajectory",

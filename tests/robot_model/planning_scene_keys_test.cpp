@@ -48,6 +48,7 @@ world:
     - {id: three, meshes: [{resource: cube.obj, scale: [1, 2, 3]}], mesh_poses: [{position: [0, 0, 7]}]}
     - {id: four, meshes: [{resource: cube.obj, dimensions: [1, 2, 3]}]}
     - {id: five, meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], triangles: [[0, 2, 1], [0, 1, 3], {vertex_indices: [1, 2, 3]}, [2, 0, 3]]}]}
+    - {id: six, primitives: [{type: sphere, dimensions: [0.5]}], motion: [{time: 1, position: [9, 0, 0]}, {time: 2, position: [9, 1, 0], orientation: [0, 0, 0.6, 0.8]}]}
 )";
 
 std::string changed(const std::string& from, const std::string& to) {
@@ -163,6 +164,14 @@ const std::vector<Change> kChanges = {
     {"collision_objects/subframe_names", "[top, side]", "[side, top]"},
     {"collision_objects/subframe_poses", "[{position: [0, 0, 1]}, ", "[{position: [0, 0, 2]}, "},
     {"collision_objects/operation", "operation: add", "operation: remove"},
+    {"collision_objects/motion",
+     "motion: [{time: 1, position: [9, 0, 0]}, {time: 2, position: [9, 1, 0], orientation: [0, 0, "
+     "0.6, 0.8]}]",
+     "pose: {position: [9, 0, 0]}"},
+    {"collision_objects/motion/time", "{time: 1, position", "{time: 1.5, position"},
+    {"collision_objects/motion/position", "position: [9, 1, 0]", "position: [9, 2, 0]"},
+    {"collision_objects/motion/orientation", "[9, 1, 0], orientation: [0, 0, 0.6, 0.8]",
+     "[9, 1, 0], orientation: [0, 0.6, 0, 0.8]"},
 };
 
 TEST(PlanningSceneKeys, EachIsAppliedRefusedOrWithoutMeaning) {
@@ -189,9 +198,10 @@ TEST(PlanningSceneKeys, EachIsAppliedRefusedOrWithoutMeaning) {
 }
 
 TEST(PlanningSceneKeys, TheTableHasTheReadersKeys) {
-  test::expectKeysOf("Planning scene (.yaml, .yml)",
-                     {"scene_yaml.cpp", "scene_extras.cpp", "scene_objects.cpp", "scene_frames.cpp",
-                      "scene_matrix.cpp", "attached_objects.cpp", "robot_state_yaml.cpp"});
+  test::expectKeysOf(
+      "Planning scene (.yaml, .yml)",
+      {"scene_yaml.cpp", "scene_extras.cpp", "scene_objects.cpp", "scene_motion.cpp",
+       "scene_frames.cpp", "scene_matrix.cpp", "attached_objects.cpp", "robot_state_yaml.cpp"});
 }
 
 }  // namespace

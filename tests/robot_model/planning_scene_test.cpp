@@ -194,6 +194,64 @@ TEST(PlanningScene, WhatCannotBeAttachedIsRefused) {
               EndsWith("operation is '1'; a scene file allows only add (0)"));
 }
 
+/// A ball of radius 0.1 m from `from` to `to` in 2 s, in a frame.
+std::string rollingBall(const std::string& id, const std::string& frame, const std::string& from,
+                        const std::string& to) {
+  return "{id: " + id + ", header: {frame_id: " + frame +
+         "}, primitives: [{type: sphere, dimensions: [0.1]}], motion: [{time: 1, position: " +
+         from + "}, {time: 3, position: " + to + ", orientation: [0, 0, 1, 0]}]}";
+}
+
+TEST(PlanningScene, AnObjectWithAMotionIsAMovingObstacle) {
+  // `lid` is 0.2 m above `l`, at x = -1 + jl. With primitive_poses, of the ball in the object.
+  std::string object = rollingBall("b", "lid", "[0, 0, 0.5]", "[0, 2, 0.5]");
+  object.insert(object.find(", motion"), ", primitive_poses: [{position: [0.25, 0, 0]}]");
+  const PlanningScene scene = load(stateOf("{name: [jl], position: [0.25]}") +
+                                   worldOf({object, ball("c", "l", "[0,9,0]")}));
+  EXPECT_EQ(scene.world.bodies().size(), 1U);
+  ASSERT_EQ(scene.world.obstacles().size(), 1U);
+  const MovingObstacle& moving = scene.world.obstacles().front();
+  EXPECT_EQ(moving.name, "b");
+  ASSERT_EQ(moving.parts.size(), 1U);
+  EXPECT_EQ(moving.parts[0].body_from_shape.translation(), Eigen::Vector3d(0.25, 0, 0));
+  ASSERT_EQ(moving.waypoints.size(), 2U);
+  EXPECT_EQ(moving.waypoints[0].time, 1.0);
+  EXPECT_EQ(moving.waypoints[1].time, 3.0);
+  const auto ballAt = [&](double time) -> Eigen::Vector3d {
+    return moving.poseAt(time) * moving.parts[0].body_from_shape.translation();
+  };
+  EXPECT_LT((ballAt(0) - Eigen::Vector3d(-0.5, 0, 0.7)).norm(), 1e-12) << "before the first";
+  EXPECT_LT((ballAt(2) - Eigen::Vector3d(-0.75, 1.25, 0.7)).norm(), 1e-12) << "a quarter turn";
+  EXPECT_LT((ballAt(9) - Eigen::Vector3d(-1.0, 2, 0.7)).norm(), 1e-12) << "after the last";
+}
+
+TEST(PlanningScene, AMovingObstacleIsCheckedAtItsTime) {
+  // Across the way of `l`, whose ball is at x = -1 + jl: there at 2 s.
+  const PlanningScene scene = load(worldOf({rollingBall("b", "odom", "[0, -1, 0]", "[0, 1, 0]")}));
+  const Checker checker = checkerOf(scene, "left");
+  Workspace workspace(checker);
+  ASSERT_EQ(checker.dimension(), 2);
+  EXPECT_EQ(checker.checkState(std::vector{1.0, 2.0}, workspace), Verdict::Collision);
+  EXPECT_EQ(checker.checkState(std::vector{1.0, 1.0}, workspace), Verdict::Free);
+  EXPECT_EQ(checker.checkState(std::vector{0.0, 2.0}, workspace), Verdict::Free);
+}
+
+TEST(PlanningScene, WhatMovesIsNothingThatALinkCarries) {
+  const std::string rolling = rollingBall("can", "odom", "[0, 0, 5]", "[0, 1, 5]");
+  EXPECT_THAT(refusal(attach("l", "{id: can}") + worldOf({rolling})),
+              EndsWith("attached object 'can': object is an object of the world that moves, which "
+                       "no link can take"));
+  EXPECT_THAT(refusal(attach("l", rollingBall("jug", "l", "[0, 0, 5]", "[0, 1, 5]")) +
+                      worldOf({ball("a", "odom", "[0, 0, 9]")})),
+              EndsWith("attached object 'jug': object.motion is of an object that a link carries; "
+                       "it moves with the link"));
+  EXPECT_THAT(refusal(worldOf({rollingBall("l", "odom", "[0, 0, 5]", "[0, 1, 5]")})),
+              EndsWith("object 'l': a link of the robot has this name, which an object that moves "
+                       "cannot have"));
+  EXPECT_THAT(refusal(worldOf({rolling, ball("a", "can", "[0, 0, 1]")})),
+              EndsWith("header.frame_id is 'can', an object that moves; a frame has to stand"));
+}
+
 TEST(PlanningScene, FramesAreLinksObjectsAndTheirSubframes) {
   // `l` is 0.2 m below `lid`, at x = -1 + jl.
   const std::string world = worldOf(

@@ -92,6 +92,19 @@ TEST(SceneMatrix, EntriesCountBeforeDefaultsAndDefaultsThatCheckBeforeThoseThatA
   EXPECT_EQ(fate(checker, "b", "post"), "not checked") << "one default alone";
 }
 
+TEST(SceneMatrix, SpeaksOfObjectsThatMove) {
+  const std::string cart =
+      "world: {collision_objects: [{id: cart, primitives: [{type: sphere, dimensions: [0.1]}], "
+      "motion: [{time: 0, position: [0, 0, 9]}]}]}\n";
+  const auto robot = test::twoArms();
+  const auto with = [&](const std::string& value) {
+    return checkerOf(robot, cart + matrix("entry_names: [l, cart], entry_values: [[0, " + value +
+                                          "], [" + value + ", 0]]"));
+  };
+  EXPECT_EQ(fate(with("true"), "l", "cart"), "not checked");
+  EXPECT_EQ(fate(with("false"), "l", "cart"), "checked");
+}
+
 TEST(SceneMatrix, TouchLinksTouchWhateverItSays) {
   const std::string attached =
       "robot_state:\n  attached_collision_objects:\n"

@@ -64,10 +64,11 @@ TEST(TrajectoryKeys, OfJson) {
       {"trajectory/points/positions", plain, point(R"("time": 0, "positions": [0, 0, 0])")},
       with("velocities"),
       with("accelerations")};
-  for (const char* claim :
-       {"robot", "group", "planner", "seed", "margin", "margin_self", "margin_world", "tolerance",
-        "clouds", "joint_names", "constraints", "states", "segments", "nothing_checked",
-        "links_without_geometry", "warnings", "inputs", "model", "proof"})
+  for (const char* claim : {"robot",    "group",       "planner",         "seed",
+                            "margin",   "margin_self", "margin_world",    "tolerance",
+                            "clouds",   "clock",       "joint_names",     "constraints",
+                            "states",   "segments",    "nothing_checked", "links_without_geometry",
+                            "warnings", "inputs",      "model",           "proof"})
     cases.push_back(
         {claim, plain, "{\"" + std::string(claim) + "\": [\"other\"], " + plain.substr(1)});
   test::walkFormat("Trajectory (.json)", cases,

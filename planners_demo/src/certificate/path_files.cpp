@@ -103,9 +103,10 @@ void PathFile::write(const Checker& checker, const PathRecord& record,
 }
 
 PathProof proofOf(const Checker& checker, const JointTrajectory& trajectory,
-                  const TrajectoryCertificate& certificate) {
+                  const TrajectoryCertificate& certificate, double clock) {
   PathProof proof{.path = provenPath(trajectory, certificate), .certificate = {}};
-  proof.certificate = certificateOf(checker, trajectory, proof.path.segments.front().clearance);
+  proof.certificate =
+      certificateOf(checker, trajectory, proof.path.segments.front().clearance, clock);
   return proof;
 }
 

@@ -48,8 +48,9 @@ struct PathProof {
   ProvenPath path;          ///< or a trajectory's points
   Certificate certificate;  ///< planes beside the path, or beside the trajectory's curve
 };
-/// Of a trajectory. `certificate`: of its curve, which is free, with clearances.
+/// Of a trajectory. `certificate`: of its curve, which is free, with clearances. `clock`: s, its
+/// TrajectoryQuery::clock.
 PathProof proofOf(const Checker& checker, const JointTrajectory& trajectory,
-                  const TrajectoryCertificate& certificate);
+                  const TrajectoryCertificate& certificate, double clock = 0.0);
 
 }  // namespace swept

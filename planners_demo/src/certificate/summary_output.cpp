@@ -54,6 +54,10 @@ Json outcomeJson(const VerifyOutcome& outcome) {
                {"clearance_world", finiteOrNull(summary.clearanceWorld)},
                {"clearance_self", finiteOrNull(summary.clearanceSelf)}};
   if (summary.duration) json["duration"] = *summary.duration;
+  if (!summary.moving.empty()) {
+    json["moving"] = summary.moving;
+    json["clock"] = {summary.clockBegin, summary.clockEnd};
+  }
   for (const auto& [joint, tube] : summary.tube) {
     if (tube.rotation) json["tube"][joint]["rotation"] = *tube.rotation;
     if (tube.translation) json["tube"][joint]["translation"] = *tube.translation;

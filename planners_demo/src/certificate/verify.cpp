@@ -36,7 +36,8 @@ Files filesOf(const Arguments& args, const Json& path, Warnings& warnings) {
     throw InputError(args.verify.path, 0, "it does not say which files it is for");
   const nlohmann::json recorded(path["inputs"]);
   Arguments inputs = inputsOf(JsonValue(recorded, "inputs", args.verify.path));
-  inputs.command = &kPlanCommand;
+  // A path has no times, and so no clock.
+  inputs.command = path.contains("trajectory") ? &kTrajectoryCommand : &kPlanCommand;
   inputs.quiet = true;  // verifying has a line of progress
   inputs.verbose = args.verbose;
   if (!args.verify.robot.empty()) inputs.robot = args.verify.robot;
@@ -99,6 +100,11 @@ std::string summaryText(const verify::Summary& summary) {
                      countedText(summary.pairs, "pair of bodies", "pairs of bodies") + ", " +
                      countedText(summary.intervals, "interval") + ", " +
                      countedText(summary.planes, "plane") + "\n" + keptText(summary) + "\n";
+  if (!summary.moving.empty())
+    text +=
+        escapedLine("beside what moves, from " + shortNumber(summary.clockBegin) + " to " +
+                    shortNumber(summary.clockEnd) + " s of its clock: " + joined(summary.moving)) +
+        "\n";
   for (const std::string& constraint : summary.constraints)
     text += escapedLine("at every instant: " + constraint) + "\n";
   for (const auto& [reason, pairs] : summary.allowed)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "input/clock.hpp"
 #include "page/pages.hpp"
 #include "replay/query_dump.hpp"
 
@@ -14,6 +15,10 @@ void addCheckOptions(CLI::App& app, Arguments& args) {
   addSelfFilterOption(app, args);
   addConstraintOptions(app, args);
   addStateListOption(app, args, "states to check");
+  app.add_option("--time", args.clock.time,
+                 "s; when the states are checked, on the clock of the objects of --scene that move")
+      ->type_name("S")
+      ->check(within(-kMostTime, kMostTime, "between -1e6 and 1e6 s"));
   addProblemOptions(app, args, "checks start and goals in its world");
   addDumpOption(app, args);
   addHtmlOption(app, args);
@@ -32,6 +37,7 @@ const Command kCheckCommand{.name = "check",
                             .addOptions = addCheckOptions,
                             .run = runCheck,
                             .notes = stateListNotes,
-                            .takesLists = true};
+                            .takesLists = true,
+                            .hasClock = true};
 
 }  // namespace swept

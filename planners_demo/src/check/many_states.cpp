@@ -163,7 +163,8 @@ ExitCode moveThroughMany(const Arguments& args, const Model& model, const Task& 
                                    .to = b.label,
                                    .certificate = certificate,
                                    .clearance = {},
-                                   .constraints = &checker.options().constraints};
+                                   .constraints = &checker.options().constraints,
+                                   .times = timesBetween(a, b)};
         answers.text += segmentText(report);
         answers.told.push_back(segmentJson(report));
       }

@@ -21,7 +21,8 @@ SegmentReport examine(const LabelledState& from, const LabelledState& to, const 
                         .to = to.label,
                         .certificate = {},
                         .clearance = {},
-                        .constraints = &checker.options().constraints};
+                        .constraints = &checker.options().constraints,
+                        .times = timesBetween(from, to)};
   segment.certificate = checker.certifyMotion(from.q, to.q, workspace);
   if (segment.certificate.verdict != Verdict::Collision)
     segment.clearance =
@@ -38,6 +39,7 @@ ExitCode runMotion(const Arguments& args) {
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
   if (task.states.size() < 2) throw UsageError("motion: two states or more are needed");
+  dump.requireStanding(*task.checker);
   dump.setFirstState(task.states.front().q);
   if (areMany(task)) return moveThroughMany(args, model, task, dump, warnings);
   Workspace workspace(*task.checker);

@@ -14,6 +14,10 @@ void addMotionOptions(CLI::App& app, Arguments& args) {
   addSelfFilterOption(app, args);
   addConstraintOptions(app, args);
   addStateListOption(app, args, "two states or more");
+  app.add_option("--times", args.clock.times,
+                 "s; when the robot is at each of the states, on the clock of the objects of "
+                 "--scene that move")
+      ->type_name("T,T,...");
   addProblemOptions(app, args, "the motion from start to goal in its world");
   addDumpOption(app, args);
   addHtmlOption(app, args);
@@ -33,6 +37,7 @@ const Command kMotionCommand{
     .addOptions = addMotionOptions,
     .run = runMotion,
     .notes = stateListNotes,
-    .takesLists = true};
+    .takesLists = true,
+    .hasClock = true};
 
 }  // namespace swept

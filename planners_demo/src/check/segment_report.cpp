@@ -22,7 +22,21 @@ std::string clearanceLines(const MotionClearance& clearance) {
          "\n";
 }
 
+/// `t = 0.25`, and with times `t = 0.25 (1.5 s)`.
+std::string placeText(const SegmentReport& segment, double t) {
+  const std::string place = "t = " + shortNumber(t);
+  if (!segment.times) return place;
+  const auto [begin, end] = *segment.times;
+  return place + " (" + shortNumber(begin + t * (end - begin)) + " s)";
+}
+
 }  // namespace
+
+std::optional<std::pair<double, double>> timesBetween(const LabelledState& from,
+                                                      const LabelledState& to) {
+  if (!from.time || !to.time) return std::nullopt;
+  return std::pair(*from.time, *to.time);
+}
 
 std::string segmentText(const SegmentReport& segment) {
   const MotionCertificate& certificate = segment.certificate;
@@ -31,15 +45,15 @@ std::string segmentText(const SegmentReport& segment) {
       (certificate.witness && keepsApart(*certificate.witness) ? " (closer than the margin)\n"
                                                                : "\n");
   if (certificate.verdict != Verdict::Free)
-    text += "  free until  t = " + shortNumber(certificate.freeUntil) + "\n";
+    text += "  free until  " + placeText(segment, certificate.freeUntil) + "\n";
   if (certificate.witness)
-    text += "  contact     t = " + shortNumber(certificate.witness->t) + ", " +
+    text += "  contact     " + placeText(segment, certificate.witness->t) + ", " +
             witnessText(*certificate.witness) + "\n";
   if (certificate.violation)
-    text += "  constraint  t = " + shortNumber(certificate.violation->t) + ", " +
+    text += "  constraint  " + placeText(segment, certificate.violation->t) + ", " +
             escapedLine(describe(*certificate.violation, *segment.constraints)) + "\n";
   if (certificate.verdict == Verdict::Undecided)
-    text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
+    text += "  undecided   " + placeText(segment, certificate.undecidedAt) + "\n";
   if (segment.clearance) text += clearanceLines(*segment.clearance);
   const Effort& effort = certificate.effort;
   return text + "  effort      intervals in lanes " + std::to_string(effort.lanes) + ", exactly " +
@@ -53,6 +67,7 @@ Json segmentJson(const SegmentReport& segment) {
                {"to", segment.to},
                {"verdict", toString(certificate.verdict)},
                {"free_until", certificate.freeUntil}};
+  if (segment.times) json["times"] = {segment.times->first, segment.times->second};
   json["witness"] = certificate.witness ? toJson(*certificate.witness) : Json(nullptr);
   json["undecided_at"] =
       certificate.verdict == Verdict::Undecided ? Json(certificate.undecidedAt) : Json(nullptr);

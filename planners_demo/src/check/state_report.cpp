@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/state_report.hpp"
 
+#include <span>
 #include <utility>
 
 #include "output/clearance_text.hpp"
@@ -29,10 +30,12 @@ Json reportJson(const LabelledState& state, const StateReport& report,
     contacts.push_back(toJson(contact));
     contacts.back().erase("t");
   }
+  const std::span<const double> values(state.q);
   Json json = {{"label", state.label},
-               {"values", toJson(state.q)},
+               {"values", toJson(state.time ? values.first(values.size() - 1) : values)},
                {"verdict", toString(report.verdict)},
                {"clearance", finiteOrNull(report.clearance)}};
+  if (state.time) json["time"] = *state.time;
   json["nearest"] = nearestJson(report.nearestA, report.nearestB);
   addClearances(clearancesOf(report), json);
   json["contacts"] = std::move(contacts);

@@ -39,6 +39,13 @@ struct Arguments {
   bool degrees = false;             ///< angles of values in `states`
   std::string path;                 ///< path file of certify
 
+  /// The clock of objects of the scene that move.
+  struct Clock {
+    std::optional<double> time;   ///< s, of all states of check
+    std::string times;            ///< s, T,T,...: of the states of motion
+    std::optional<double> begin;  ///< s, at the time 0 of a trajectory
+  } clock;
+
   std::string srdf;  ///< empty: a file beside the URDF; `none`: without
   std::string scene;
   std::vector<std::string> clouds;    ///< files

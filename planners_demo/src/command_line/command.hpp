@@ -24,6 +24,7 @@ struct Command {
   ExitCode (*run)(const Arguments& args);
   std::string (*notes)() = nullptr;  ///< more text for the help, above the example; null: none
   bool takesLists = false;           ///< a STATE may be `@FILE`, `-` or a path file
+  bool hasClock = false;             ///< objects of the scene may move
 };
 
 /// All subcommands, in the order of the help.

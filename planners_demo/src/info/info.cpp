@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
-#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 
 namespace swept {
 
@@ -27,6 +27,7 @@ std::vector<std::string> explanations(const Arguments& args, const Checker& chec
       for (const Link& link : checker.robot().links()) known.push_back(link.name);
       for (const AttachedBody& body : checker.options().attached) known.push_back(body.name);
       for (const WorldBody& body : checker.world().bodies()) known.push_back(body.name);
+      for (const MovingObstacle& body : checker.world().obstacles()) known.push_back(body.name);
       const bool isA = std::ranges::find(known, a) != known.end();
       throw UsageError(error.what() + didYouMean(isA ? b : a, known));
     }

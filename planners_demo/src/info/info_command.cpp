@@ -29,6 +29,7 @@ const Command kInfoCommand{
         "swept info models/robots/rook7/rook7.urdf --scene models/scenes/shelf.yaml --group arm",
     .exitCodes = kVerdictExitCodes,
     .addOptions = addInfoOptions,
-    .run = runInfo};
+    .run = runInfo,
+    .hasClock = true};
 
 }  // namespace swept

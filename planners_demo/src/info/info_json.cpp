@@ -102,6 +102,14 @@ Json worldJson(const World& world) {
     for (const WorldBody::Part& part : body.parts) parts.push_back(shapeJson(part.shape));
     bodies.push_back({{"name", body.name}, {"parts", std::move(parts)}});
   }
+  for (const MovingObstacle& body : world.obstacles()) {
+    Json parts = Json::array();
+    for (const MovingObstacle::Part& part : body.parts) parts.push_back(shapeJson(part.shape));
+    bodies.push_back({{"name", body.name},
+                      {"parts", std::move(parts)},
+                      {"moves_from", body.waypoints.front().time},
+                      {"moves_until", body.waypoints.back().time}});
+  }
   return bodies;
 }
 

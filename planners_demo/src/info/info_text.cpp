@@ -106,6 +106,12 @@ std::string worldTable(const World& world) {
   for (const WorldBody& body : world.bodies())
     for (const WorldBody::Part& part : body.parts)
       table.add({&part == &body.parts.front() ? body.name : "", shapeText(part.shape)});
+  for (const MovingObstacle& body : world.obstacles())
+    for (const MovingObstacle::Part& part : body.parts)
+      table.add({&part == &body.parts.front() ? body.name : "",
+                 shapeText(part.shape) + ", moves from " +
+                     shortNumber(body.waypoints.front().time) + " to " +
+                     shortNumber(body.waypoints.back().time) + " s"});
   return table.text();
 }
 
@@ -168,9 +174,10 @@ std::string infoText(const Arguments& args, const Model& model, const Checker* c
           count(robot.variables().size(), "variable", "variables") + "; " +
           count(robot.disabledPairs().size(), "pair", "pairs") + " disabled by the SRDF\n";
   text += "\n" + linkTable(robot) + "\n" + jointTable(robot) + "\n" + groupTable(robot);
-  if (!model.world->bodies().empty() || !args.scene.empty())
+  const std::size_t bodies = model.world->bodies().size() + model.world->obstacles().size();
+  if (bodies > 0 || !args.scene.empty())
     text += "\n" + (args.scene.empty() ? "world" : escapedLine("scene " + args.scene)) + ": " +
-            count(model.world->bodies().size(), "body", "bodies") + "\n" + worldTable(*model.world);
+            count(bodies, "body", "bodies") + "\n" + worldTable(*model.world);
   if (checker == nullptr) return text;
   text.append("\n").append(pairText(*checker, args.verbose));
   for (const std::string& sentence : explanations(args, *checker))

@@ -6,6 +6,7 @@
 
 #include "command_line/exit_code.hpp"
 #include "input/attach.hpp"
+#include "input/clock.hpp"
 #include "input/clouds.hpp"
 #include "input/robot_loading.hpp"
 #include "input/rules.hpp"
@@ -94,6 +95,8 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
   World world = std::move(scene.world);
+  requireClock(args, world);
+  refuseClock(args, world);
   model.reference = withStanding(args, *model.robot, std::move(scene.state), options);
   addClouds(args, *model.robot, model.reference, options, world);
   model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));

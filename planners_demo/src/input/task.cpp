@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
+#include "input/clock.hpp"
 #include "input/constraints.hpp"
 #include "input/problem_choice.hpp"
 #include "input/request_task.hpp"
@@ -88,6 +89,7 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
   checkStateSource(args);
   Task task = anyTask(args, model, warnings);
   task.checker = withConstraintsOf(args, task.checker, task.states.front().q, task.constraints);
+  addTimes(args, task);
   warnOfNothing(*task.checker, warnings);
   return task;
 }

@@ -108,6 +108,7 @@ double clearanceAccuracy(const Checker& checker);
 struct LabelledState {
   std::string label;
   std::vector<double> q;
+  std::optional<double> time = {};  ///< s, the last of `q`, where an object of the scene moves
 };
 
 /// A checker and the states to examine. The states come from the command line, a problem of a

@@ -87,7 +87,9 @@ std::function<std::string()> pathPage(const Arguments& args, const Json& path) {
   const std::string label = std::filesystem::path(args.robot).filename().string();
   if (path.contains("trajectory")) {
     const JointTrajectory trajectory = trajectoryIn(path, args.robot);
-    page->addTrajectory(label, controllerCurve(trajectory));
+    TrajectoryQuery query;
+    query.clock = path.value("clock", 0.0);
+    page->addTrajectory(label, controllerCurve(trajectory), query);
   } else {
     page->addPath(label, pathStates(path, *checker, args.robot));
   }

@@ -59,6 +59,13 @@ void QueryDump::requireNames(const Checker& checker) const {
     requireUtf8(checker.robot().variables()[v].name, where_);
 }
 
+void QueryDump::requireStanding(const Checker& checker) const {
+  const std::vector<MovingObstacle>& moving = checker.world().obstacles();
+  if (folder_.empty() || moving.empty()) return;
+  throw UsageError(where_ + ": object '" + moving.front().name +
+                   "' of the scene moves, and the queries that are written have no times");
+}
+
 void QueryDump::state(const Checker& checker, const std::string& label,
                       const std::vector<double>& q, Verdict verdict) {
   MotionCertificate found;

@@ -28,6 +28,9 @@ class QueryDump {
   /// the work than at the first answer that is to be written.
   void requireNames(const Checker& checker) const;
 
+  /// Throws UsageError where an object of the world moves: a file has no times.
+  void requireStanding(const Checker& checker) const;
+
   void state(const Checker& checker, const std::string& label, const std::vector<double>& q,
              Verdict verdict);
   void motion(const Checker& checker, const std::string& label, const std::vector<double>& from,

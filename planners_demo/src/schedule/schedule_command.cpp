@@ -78,6 +78,7 @@ const Command kScheduleCommand{
         "limit is left or no plan\nwas found, 2 undecided, 3 bad input or usage.",
     .addOptions = addScheduleOptions,
     .run = runSchedule,
-    .notes = notes};
+    .notes = notes,
+    .hasClock = true};
 
 }  // namespace swept

@@ -67,6 +67,7 @@ class TrajectoryRun {
     const Group& group = chooseGroup(*model_.robot, args_);
     query_.limits = limitsOf(args_, model_, group);
     query_.clearances = true;
+    query_.clock = args_.clock.begin.value_or(0.0);
     checker_ = makeChecker(args_, model_, group, model_.world, warnings_);
     if (!args_.output.empty())
       file_.emplace(args_.output, *model_.robot, group, PathFile::Content::Trajectory);
@@ -75,6 +76,7 @@ class TrajectoryRun {
         args_.trajectory.file, *model_.robot, group, model_.reference, model_.options);
     checker_ = withConstraintsOf(args_, checker_,
                                  start ? *start : trajectories.front().points.front().positions);
+    requireOneClock(trajectories.size());
     if (file_ && trajectories.size() > 1)
       throw UsageError("-o writes one trajectory; '" + args_.trajectory.file + "' has " +
                        std::to_string(trajectories.size()));
@@ -93,6 +95,15 @@ class TrajectoryRun {
   Json inputsOf(const JointTrajectory& trajectory) const {
     return inputsOfPath(args_, args_.output, trajectory.points.front().positions,
                         trajectory.points.back().positions);
+  }
+
+  /// Each trajectory begins at a time 0 of its own.
+  void requireOneClock(std::size_t trajectories) const {
+    const std::vector<MovingObstacle>& moving = model_.world->obstacles();
+    if (moving.empty() || trajectories == 1) return;
+    throw UsageError("'" + args_.trajectory.file + "' has " + std::to_string(trajectories) +
+                     " trajectories, each with a time 0 of its own; beside '" +
+                     moving.front().name + "', which moves, one is allowed");
   }
 
   void examine(const JointTrajectory& trajectory, const std::optional<std::vector<double>>& start,
@@ -124,6 +135,8 @@ class TrajectoryRun {
 
   void tell(const TrajectoryReport& report) {
     text_ += trajectoryText(report);
+    if (!model_.world->obstacles().empty())
+      text_ += "  clock       shows " + shortNumber(query_.clock) + " s at the time 0\n";
     reports_.push_back(trajectoryJson(report));
   }
 
@@ -177,7 +190,7 @@ class TrajectoryRun {
   std::string writeProven(const JointTrajectory& trajectory, const TrajectoryCertificate& found) {
     PathProof proof;
     if (file_->holdsProof()) {
-      proof = proofOf(*checker_, trajectory, found);
+      proof = proofOf(*checker_, trajectory, found, query_.clock);
       if (!proof.certificate.missing.empty())
         return "none was found for " + proof.certificate.missing;
     }
@@ -186,7 +199,8 @@ class TrajectoryRun {
                   .segments = proof.path.segments,
                   .inputs = inputsOf(trajectory),
                   .warnings = warnings_.unchecked(),
-                  .trajectory = &trajectory},
+                  .trajectory = &trajectory,
+                  .clock = query_.clock},
                  proof.certificate, args_.embed);
     return {};
   }
@@ -204,6 +218,7 @@ class TrajectoryRun {
                  {"tolerance", args_.tolerance},
                  {"tracking", trackingJson(*checker_)},
                  {"trajectories", reports_}};
+    if (!model_.world->obstacles().empty()) json["clock"] = query_.clock;
     if (file_) json["trajectory_file"] = notWritten_.empty() ? Json(args_.output) : Json(nullptr);
     if (file_) json["not_written"] = notWritten_.empty() ? Json(nullptr) : Json(notWritten_);
     addUnchecked(json, *checker_, warnings_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "input/clock.hpp"
 #include "page/pages.hpp"
 
 namespace swept {
@@ -22,6 +23,11 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
                  "state that the robot starts from at time 0, at rest: a name or values between "
                  "commas")
       ->type_name("STATE");
+  app.add_option("--clock", args.clock.begin,
+                 "s; what the clock of the objects of --scene that move shows at the trajectory's "
+                 "time 0 (default 0)")
+      ->type_name("S")
+      ->check(within(-kMostTime, kMostTime, "between -1e6 and 1e6 s"));
   addLimitsOption(app, args);
   app.add_option("-o,--output", args.output,
                  "the trajectory, if it is free: .json (with a proof for 'swept verify'), .csv, "
@@ -57,6 +63,7 @@ const Command kTrajectoryCommand{
         "one is\nundecided, 3 bad input or usage. With --repair: of what was written.",
     .addOptions = addTrajectoryOptions,
     .run = runTrajectory,
-    .notes = notes};
+    .notes = notes,
+    .hasClock = true};
 
 }  // namespace swept

@@ -41,6 +41,11 @@ swept.data = (function () {
   }
   for (const motion of data.motions) if (motion.curve) unpackCurve(motion);
 
+  for (const body of data.bodies)
+    if (body.motion)
+      for (const name of ['times', 'poses']) body.motion[name] = data.doubles(body.motion[name]);
+  data.moving = data.bodies.filter((body) => body.motion);
+
   if (data.clearances) {
     for (const table of [data.clearances, data.clearances.world, data.clearances.self]) {
       table.distance = data.floats(table.distance);
@@ -120,6 +125,11 @@ swept.data = (function () {
 
   // A moment of a motion: t, or the time of its curve.
   data.momentOf = (motion, t) => (motion.curve ? motion.curve.knots[0] + t * motion.duration : t);
+  // What the clock of bodies that move shows at a time of the page's.
+  data.clockAt = function (time) {
+    const at = data.locate(time), motion = data.motions[at.index];
+    return motion.curve.clock + data.momentOf(motion, at.t);
+  };
   data.momentText = (motion, t) => (motion.curve ? data.momentOf(motion, t).toFixed(3) + ' s'
                                                  : 't ' + t.toFixed(3));
 

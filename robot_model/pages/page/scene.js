@@ -192,6 +192,26 @@ swept.scene = (function () {
     changed();
   }
 
+  // Bodies of the world that move, at a time of their clock: between two poses straight and by
+  // slerp, before the first and after the last where that is.
+  function poseMoving(clock) {
+    const other = {position: new THREE.Vector3(), quaternion: new THREE.Quaternion()};
+    data.bodies.forEach((body, b) => {
+      if (!body.motion) return;
+      const {times, poses} = body.motion, group = bodies[b].group;
+      let next = 0;
+      while (next < times.length && times[next] <= clock) ++next;
+      place(group, poses, 7 * Math.max(0, next - 1));
+      if (next === 0 || next === times.length) return;
+      place(other, poses, 7 * next);
+      const share = (clock - times[next - 1]) / (times[next] - times[next - 1]);
+      group.position.lerp(other.position, share);
+      group.quaternion.slerp(other.quaternion, share);
+    });
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
   // As poses of all links of the tree say.
   function poseLinks(poses) {
     const scale = new THREE.Vector3();
@@ -313,6 +333,7 @@ swept.scene = (function () {
     links.forEach((group) => scene.add(group));
     data.bodies.forEach(addBody);
     pose(0);
+    if (data.isTimed) poseMoving(data.clockAt(0));
     bounds.copy(measure());
     const middle = bounds.getCenter(new THREE.Vector3());
     const size = bounds.getSize(new THREE.Vector3()).length();
@@ -323,7 +344,7 @@ swept.scene = (function () {
     return size;
   }
 
-  return {build, draw, pose, poseLinks, paint, highlight, seeThrough, setVisible, setShadows, addVisual,
+  return {build, draw, pose, poseLinks, poseMoving, paint, highlight, seeThrough, setVisible, setShadows, addVisual,
           showVisuals, moveBody, isMoved: () => moved.size > 0, hitAt, bodyAt: (x, y) => hitAt(x, y).body, isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
           controls: () => controls, wholeBounds: () => bounds, shownBounds: measure,
           size: () => bounds.getSize(new THREE.Vector3()).length()};

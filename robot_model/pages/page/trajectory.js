@@ -61,6 +61,9 @@ swept.trajectory = (function () {
     const knots = curve.knots, begin = knots[0], end = knots[knots.length - 1];
     const degrees = Array.from(new Set(curve.degrees)).sort((a, b) => a - b);
     addFact('duration', (end - begin).toFixed(3) + ' s' + (begin === 0 ? '' : ', from ' + begin.toFixed(3) + ' s'));
+    if (data.moving.length > 0)
+      addFact('moving', data.moving.map((body) => body.name).join(', ') + '; the clock shows ' +
+          (curve.clock + begin).toFixed(3) + ' s at the begin');
     addFact('pieces', curve.degrees.length + ', degree ' + degrees.join(', '));
     if (curve.tube !== null) addFact('tube', tubeText(curve));
     addFact('world', clearanceText(curve.clearance.world));

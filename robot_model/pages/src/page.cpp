@@ -32,12 +32,9 @@ void requireSizeOf(const Checker& checker, const std::string& label,
   static_cast<void>(checkedState(checker, label, {begin.data(), std::size_t(begin.size())}));
 }
 
-/// A page draws no moving obstacles, and orientations have to be some.
+/// Orientations have to be some.
 void requireDrawable(const Checker& checker, const std::string& label,
                      const PiecewisePolynomial& curve) {
-  if (!checker.world().obstacles().empty())
-    throw std::invalid_argument("'" + label + "': a page shows no moving obstacles, and the world" +
-                                " has '" + checker.world().obstacles().front().name + "'");
   for (const int index : checker.group().joints) {
     const Joint& joint = checker.robot().joints()[static_cast<std::size_t>(index)];
     if (joint.type != JointType::Floating) continue;

@@ -98,17 +98,18 @@ WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& ch
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
-                                  const std::vector<std::string>& warnings) {
+                                  const std::vector<std::string>& warnings, double clock) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&] { return writeTrajectoryProof(file, checker, trajectory, certificate, warnings); });
+    return inDefaultEnvironment([&, clock] {
+      return writeTrajectoryProof(file, checker, trajectory, certificate, warnings, clock);
+    });
   }
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
   requireWritable(file);
   WrittenProof written;
   const Json path =
-      trajectoryProof(checker, trajectory, certificate, warnings, where, written.missing);
+      trajectoryProof(checker, trajectory, certificate, warnings, clock, where, written.missing);
   if (!written.missing.empty()) return written;
   writeWholeFile(file, pathText(path, where));
   return {};

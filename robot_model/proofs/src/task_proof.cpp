@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "certificate/checked_proof.hpp"
+#include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "certificate/trajectory_proof.hpp"
@@ -95,8 +96,9 @@ WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPh
     const std::string number = "phase " + std::to_string(i + 1) + " (" + phase.name + ")";
     if (phase.checker == nullptr) throw std::invalid_argument(number + " has no checker");
     std::string missing;
+    requireStanding(*phase.checker, "a task");
     Json path = trajectoryProof(*phase.checker, phase.trajectory, phase.certificate, phase.warnings,
-                                where + ", " + number, missing);
+                                0.0, where + ", " + number, missing);
     if (!missing.empty()) return {.missing = number + ", " + missing};
     requireUtf8({phase.name, changesJson(phase.changes)}, where);
     if (i == 0) task["robot"] = path["robot"];

@@ -21,6 +21,8 @@ void AttachedObjects::readOne(const YamlPlace& unnamed) {
   if (!ids_.insert(id).second) entry.fail("a second attached object has this id");
   if (robot_.findLink(id)) entry.fail("a link of the robot has this name");
   const YamlPlace place = entry.at("object");
+  if (const YamlPlace motion = place.at("motion"); motion.present())
+    motion.fail("is of an object that a link carries; it moves with the link");
   const SceneObject object = objects_.read(place, id);
   if (object.parts.empty()) {
     waiting_.push_back({entry, id});
@@ -69,6 +71,8 @@ void AttachedObjects::addPart(const YamlPlace& entry, AttachedBody::Part part,
 
 void AttachedObjects::takeFrom(World& world) {
   for (const auto& [entry, id] : waiting_) {
+    if (world.findObstacle(id) != nullptr)
+      entry.at("object").fail("is an object of the world that moves, which no link can take");
     const WorldBody* found = world.find(id);
     if (found == nullptr)
       entry.at("object").fail(

@@ -11,30 +11,16 @@ void readJsonPath(const std::string& text, const InputSource& source, PathRows& 
   const nlohmann::json parsed = parseJson(text, source.name());
   const JsonPlace root{parsed, "", source.name()};
   if (!parsed.is_object()) throw InputError(source.name(), 0, "a path must be an object");
-  JsonPlace{parsed, "the path", source.name()}.allowOnly({"robot",
-                                                          "group",
-                                                          "planner",
-                                                          "tool",
-                                                          "deviation",
-                                                          "deviation_angle",
-                                                          "seed",
-                                                          "margin",
-                                                          "margin_self",
-                                                          "margin_world",
-                                                          "tolerance",
-                                                          "clouds",
-                                                          "joint_names",
-                                                          "constraints",
-                                                          "lines",
-                                                          "states",
-                                                          "trajectory",
-                                                          "segments",
-                                                          "nothing_checked",
-                                                          "links_without_geometry",
-                                                          "warnings",
-                                                          "inputs",
-                                                          "model",
-                                                          "proof"});
+  JsonPlace{parsed, "the path", source.name()}.allowOnly(
+      {"robot",        "group",           "planner",
+       "tool",         "deviation",       "deviation_angle",
+       "seed",         "margin",          "margin_self",
+       "margin_world", "tolerance",       "clouds",
+       "clock",        "joint_names",     "constraints",
+       "lines",        "states",          "trajectory",
+       "segments",     "nothing_checked", "links_without_geometry",
+       "warnings",     "inputs",          "model",
+       "proof"});
   const std::vector<JsonPlace> names = root.at("joint_names").elements();
   std::vector<std::string> texts;
   for (const JsonPlace& name : names) texts.push_back(name.text());

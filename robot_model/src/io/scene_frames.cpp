@@ -53,6 +53,10 @@ void SceneFrames::add(const std::string& name, const Eigen::Isometry3d& model_fr
   objects_.emplace(name, model_from_frame);
 }
 
+void SceneFrames::addMoving(const std::string& name) {
+  moving_.insert(name);
+}
+
 bool SceneFrames::isModel(const std::string& frame) const {
   return frame.empty() || frame == "world" || frame == source_.options().modelFrame ||
          frame == planning_;
@@ -109,6 +113,8 @@ Eigen::Isometry3d SceneFrames::model_from(const YamlPlace& header) const {
   const std::string frame = frameName(header);
   // Whatever else may have its name.
   if (!frame.empty() && frame == source_.options().modelFrame) return Eigen::Isometry3d::Identity();
+  if (moving_.contains(frame) && !links_.contains(frame))
+    header.at("frame_id").fail("is '" + frame + "', an object that moves; a frame has to stand");
   for (const auto* frames : {&links_, &objects_, &fixed_})
     if (const auto found = frames->find(frame); found != frames->end()) return found->second;
   if (isModel(frame)) return Eigen::Isometry3d::Identity();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <set>
 #include <string>
 
 #include "io/input_source.hpp"
@@ -31,11 +32,14 @@ class SceneFrames {
   /// Adds a frame that the file defines: an object, or `object/subframe`. The first with a name
   /// counts.
   void add(const std::string& name, const Eigen::Isometry3d& model_from_frame);
+  /// Adds an object that moves: no pose can be in its frame.
+  void addMoving(const std::string& name);
 
   /// Reads `fixed_frame_transforms`. Throws InputError for transforms into more than one frame, a
   /// transform of no frame, two of one frame, and one that moves the model frame or a link.
   void read(const YamlPlace& list);
-  /// The pose of the frame that a std_msgs/Header names. Throws InputError for an unknown frame.
+  /// The pose of the frame that a std_msgs/Header names. Throws InputError for an unknown frame,
+  /// and for that of an object that moves.
   Eigen::Isometry3d model_from(const YamlPlace& header) const;
   /// The pose of a link that was added.
   const Eigen::Isometry3d& model_from_link(const std::string& link) const;
@@ -55,6 +59,7 @@ class SceneFrames {
   /// By name, poses in the model frame.
   std::map<std::string, Eigen::Isometry3d> links_, objects_, fixed_;
   ///@}
+  std::set<std::string> moving_;  ///< objects
 };
 
 /// The frame's name in a std_msgs/Header; empty when it names none. MoveIt lets a name begin with a

@@ -129,9 +129,11 @@ CollisionRules rulesOf(const SceneMatrix& matrix, const Robot& robot,
           std::ranges::find(body.touchLinks, link.name) == body.touchLinks.end())
         writer.pair(link.name, body.name);
     for (const WorldBody& body : world.bodies()) writer.pair(link.name, body.name);
+    for (const MovingObstacle& body : world.obstacles()) writer.pair(link.name, body.name);
   }
   for (auto body = attached.begin(); body != attached.end(); ++body) {
     for (const WorldBody& obstacle : world.bodies()) writer.pair(body->name, obstacle.name);
+    for (const MovingObstacle& obstacle : world.obstacles()) writer.pair(body->name, obstacle.name);
     for (auto other = body + 1; other != attached.end(); ++other)
       if (other->link != body->link) writer.pair(body->name, other->name);
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/scene_motion.hpp"
 #include "io/zero_sizes.hpp"
 
 namespace swept::detail {
@@ -126,6 +127,18 @@ void requireAdd(const YamlPlace& operation) {
   operation.fail("is '" + operation.text() + "'; a scene file allows only add (0)");
 }
 
+/// What an object with a motion cannot have.
+void requireMovable(const YamlPlace& object) {
+  for (const char* key : {"pose", "subframe_names", "planes"}) {
+    const YamlPlace place = object.at(key);
+    if (!place.present() || (place.isSequence() && place.elements().empty())) continue;
+    const std::string_view what(key);
+    place.fail(what == "pose"     ? "and motion say where the object is; one of them is allowed"
+               : what == "planes" ? "are of an object with a motion; what has no bounds cannot move"
+                                  : "are of an object with a motion; nothing can be placed by it");
+  }
+}
+
 }  // namespace
 
 std::string idOf(const YamlPlace& object) {
@@ -137,12 +150,17 @@ std::string idOf(const YamlPlace& object) {
 SceneObject SceneObjects::read(const YamlPlace& object, const std::string& id) {
   object.allowOnly({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes",
                     "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses",
-                    "operation"});
+                    "operation", "motion"});
   requireAdd(object.at("operation"));
   SceneObject result{.id = id, .parts = {}, .header_from_frame = {}};
   addShapes(object, "primitives", "primitive_poses", result);
   addShapes(object, "meshes", "mesh_poses", result);
   addShapes(object, "planes", "plane_poses", result);
+  result.motion = readMotion(object.at("motion"));
+  if (!result.motion.empty()) {
+    requireMovable(object);
+    return result;
+  }
   const Eigen::Isometry3d pose = object.at("pose").pose("position", "orientation");
   // If an object without a pose has one shape, MoveIt takes the shape's pose for the object's
   // (PlanningScene::shapesAndPosesFromCollisionObjectMessage): subframes are relative to it.

@@ -11,6 +11,7 @@
 #include "io/warning_kinds.hpp"
 #include "io/yaml.hpp"
 #include "swept/core/shapes.hpp"
+#include "swept/robot_model/world.hpp"
 
 namespace swept::detail {
 
@@ -24,6 +25,9 @@ struct SceneObject {
   std::vector<Part> parts;
   /// The frames of the object (`id`) and of its subframes (`id/name`), which other poses may name.
   std::vector<std::pair<std::string, Eigen::Isometry3d>> header_from_frame;
+  /// Of an object that moves, in the frame that its header names: the parts are then in the
+  /// object's own frame, and there are no frames.
+  std::vector<MovingObstacle::Waypoint> motion = {};
 };
 
 /// Reads the objects of one file, whose meshes they share.
@@ -32,8 +36,8 @@ class SceneObjects {
   explicit SceneObjects(const InputSource& source)
       : source_(source), meshes_(source), warnings_(source) {}
 
-  /// Throws InputError for an operation other than ADD, and for any other error in it. The object
-  /// may have no parts.
+  /// Throws InputError for an operation other than ADD; for a pose, subframes or planes of an
+  /// object with a motion; and for any other error in it. The object may have no parts.
   SceneObject read(const YamlPlace& object, const std::string& id);
   /// Gives the warnings that need all objects to be read.
   void flushWarnings() { warnings_.flush(); }

@@ -29,6 +29,8 @@ class SceneReader {
  private:
   void readRobot(const YamlPlace& root);
   void readObject(const YamlPlace& unnamed);
+  void addMoving(const YamlPlace& place, const SceneObject& object,
+                 const Eigen::Isometry3d& model_from_header);
   void addRules(const YamlPlace& root);
 
   const Robot* robot_;  ///< null: the world alone is read
@@ -87,18 +89,40 @@ void SceneReader::readRobot(const YamlPlace& root) {
 void SceneReader::readObject(const YamlPlace& unnamed) {
   const std::string id = idOf(unnamed);
   const YamlPlace place = unnamed.called("object '" + id + "':");
-  if (scene_.world.find(id) != nullptr) place.fail("a second object has this id");
+  if (scene_.world.find(id) != nullptr || scene_.world.findObstacle(id) != nullptr)
+    place.fail("a second object has this id");
   if (attached_ && attached_->has(id)) place.fail("an attached object has this id");
   const SceneObject object = objects_.read(place, id);
   const Eigen::Isometry3d model_from_header = frames_.model_from(place.at("header"));
+  if (object.parts.empty()) place.fail("it has no primitives, no meshes and no planes");
+  if (!object.motion.empty()) {
+    addMoving(place, object, model_from_header);
+    return;
+  }
   WorldBody body{.name = id, .parts = {}};
   for (const SceneObject::Part& part : object.parts)
     body.parts.push_back({part.shape, model_from_header * part.header_from_shape});
-  if (body.parts.empty()) place.fail("it has no primitives, no meshes and no planes");
   for (const auto& [name, header_from_frame] : object.header_from_frame)
     frames_.add(name, model_from_header * header_from_frame);
   try {
     scene_.world.add(std::move(body));
+  } catch (const std::invalid_argument& error) {
+    place.fail(error.what());
+  }
+}
+
+void SceneReader::addMoving(const YamlPlace& place, const SceneObject& object,
+                            const Eigen::Isometry3d& model_from_header) {
+  if (robot_ != nullptr && robot_->findLink(object.id))
+    place.fail("a link of the robot has this name, which an object that moves cannot have");
+  MovingObstacle obstacle{.name = object.id, .parts = {}, .waypoints = object.motion};
+  for (const SceneObject::Part& part : object.parts)
+    obstacle.parts.push_back({part.shape, part.header_from_shape});
+  for (MovingObstacle::Waypoint& waypoint : obstacle.waypoints)
+    waypoint.world_from_body = model_from_header * waypoint.world_from_body;
+  frames_.addMoving(object.id);
+  try {
+    scene_.world.add(std::move(obstacle));
   } catch (const std::invalid_argument& error) {
     place.fail(error.what());
   }

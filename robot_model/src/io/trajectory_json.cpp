@@ -50,12 +50,27 @@ void readJsonTrajectory(const std::string& text, const InputSource& source, Traj
   const nlohmann::json parsed = parseJson(text, source.name());
   if (!parsed.is_object())
     throw InputError(source.name(), 0, "a file with a trajectory must be an object");
-  JsonPlace{parsed, "the file", source.name()}.allowOnly(
-      {"trajectory", "robot",    "group",           "planner",
-       "seed",       "margin",   "margin_self",     "margin_world",
-       "tolerance",  "clouds",   "joint_names",     "constraints",
-       "states",     "segments", "nothing_checked", "links_without_geometry",
-       "warnings",   "inputs",   "model",           "proof"});
+  JsonPlace{parsed, "the file", source.name()}.allowOnly({"trajectory",
+                                                          "robot",
+                                                          "group",
+                                                          "planner",
+                                                          "seed",
+                                                          "margin",
+                                                          "margin_self",
+                                                          "margin_world",
+                                                          "tolerance",
+                                                          "clouds",
+                                                          "joint_names",
+                                                          "constraints",
+                                                          "clock",
+                                                          "states",
+                                                          "segments",
+                                                          "nothing_checked",
+                                                          "links_without_geometry",
+                                                          "warnings",
+                                                          "inputs",
+                                                          "model",
+                                                          "proof"});
   readJsonTrajectory(JsonPlace{parsed, "", source.name()}.at("trajectory"), rows);
 }
 

@@ -78,6 +78,11 @@ TEST_F(TaskPages, RefuseWhatIsNoTask) {
   page.addPhase("over", beside_, curve(-1, 1, 0.5, 1.0));
   EXPECT_EQ(test::messageOf([&] { page.addPhase("early", beside_, curve(1, 0, 0.5, 1.5)); }),
             "'early' begins at 1.5 s, and the phase before ends at 2 s");
+  MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
+  cart.waypoints.push_back({0.0, Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))});
+  const auto moving = std::make_shared<const Checker>(beside_->withObstacle(cart));
+  EXPECT_EQ(test::messageOf([&] { page.addPhase("late", moving, curve(1, 0, 0.5, 2.0)); }),
+            "'late': a page of a task shows no moving obstacles, and the world has 'cart'");
   EXPECT_EQ(dataOf(page.html())["phases"].size(), 1U);
   const test::TemporaryFolder folder;
   EXPECT_THROW(page.write(folder.path() / "page.txt"), UsageError);

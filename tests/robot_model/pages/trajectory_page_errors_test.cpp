@@ -50,12 +50,17 @@ TEST(TrajectoryPageErrorsTest, WhatCannotBeShownIsRefusedAndChangesNothing) {
   EXPECT_EQ(dataOf(states)["states"].size(), 1U);
 }
 
-TEST(TrajectoryPageErrorsTest, MovingObstaclesAreRefused) {
+TEST(TrajectoryPageErrorsTest, MovingObstaclesAreBesideTrajectoriesAlone) {
   MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
   cart.waypoints.push_back({0.0, Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0))});
   Page page(std::make_shared<const Checker>(slide()->withObstacle(cart)));
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", rideTo(1.3)); }),
-            "'t': a page shows no moving obstacles, and the world has 'cart'");
+  EXPECT_EQ(refusal([&] { page.addState("s", std::vector<double>{0.0}); }),
+            "a page shows moving obstacles beside trajectories alone, and the world has 'cart'");
+  page.addTrajectory("t", rideTo(1.3), {.clock = 2.5});
+  const auto data = dataOf(page);
+  EXPECT_EQ(data["motions"][0]["curve"]["clock"], 2.5);
+  EXPECT_EQ(data["bodies"].back()["name"], "cart");
+  EXPECT_TRUE(data["bodies"].back().contains("motion"));
 }
 
 TEST(TrajectoryPageErrorsTest, OrientationsNeedADirection) {

@@ -150,7 +150,7 @@ TEST_F(PathProof, IsNotWrittenOfAPathThatIsNotFree) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "proof.json"));
 }
 
-TEST_F(PathProof, IsNotWrittenBesideMovingObstacles) {
+TEST_F(PathProof, OfStatesIsNotWrittenBesideMovingObstacles) {
   const Checker moving = checker_.withObstacle(
       {.name = "cart",
        .parts = {{makeSphere(0.1), Eigen::Isometry3d::Identity()}},
@@ -161,7 +161,7 @@ TEST_F(PathProof, IsNotWrittenBesideMovingObstacles) {
   EXPECT_EQ(certificate.verdict(), Verdict::Free);
   EXPECT_EQ(
       usageError([&] { writeProof(folder_.path() / "proof.json", moving, states, certificate); }),
-      "a proof cannot be written beside moving obstacles");
+      "there is no proof of a path beside 'cart', which moves");
 }
 
 TEST_F(PathProof, RefusesFilesThatAreNone) {

@@ -24,7 +24,8 @@ class Collector {
   explicit Collector(const Checker* checker) : checker_(checker) {}
 
   PageBody body(const std::string& name, PageBody::Kind kind, int link) const {
-    PageBody body{.name = name, .kind = kind, .link = link, .parts = {}, .colour = {}};
+    PageBody body{
+        .name = name, .kind = kind, .link = link, .moving = nullptr, .parts = {}, .colour = {}};
     if (checker_ != nullptr) body.padding = checker_->options().rules.padding(name);
     return body;
   }
@@ -171,6 +172,12 @@ std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const C
     PageBody& body = bodies.emplace_back(collector.body(obstacle.name, PageBody::Kind::World, -1));
     for (const WorldBody::Part& part : obstacle.parts)
       collector.addPart(body, part.shape, part.world_from_shape, nullptr);
+  }
+  for (const MovingObstacle& obstacle : world.obstacles()) {
+    PageBody& body = bodies.emplace_back(collector.body(obstacle.name, PageBody::Kind::World, -1));
+    body.moving = &obstacle;
+    for (const MovingObstacle::Part& part : obstacle.parts)
+      collector.addPart(body, part.shape, part.body_from_shape, nullptr);
   }
   return bodies;
 }

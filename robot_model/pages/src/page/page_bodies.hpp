@@ -19,19 +19,21 @@ struct PageBody {
   enum class Kind { Link, Attached, World, Drawing };
   struct Part {
     Shape shape;                               ///< scaled as the rules say
-    Eigen::Isometry3d body_from_shape;         ///< of World: model_from_shape
+    Eigen::Isometry3d body_from_shape;         ///< of World that stands: model_from_shape
     std::shared_ptr<const SphereCover> cover;  ///< of links and attached bodies; null: none
   };
   std::string name;
   Kind kind = Kind::Link;
   int link = -1;  ///< whose frame the body moves with; -1: it stands in the model frame
+  const MovingObstacle* moving = nullptr;  ///< of World: how it moves; null: it stands
   std::vector<Part> parts;
   std::optional<Colour> colour;  ///< of a link; none: the page's own
   double padding = 0.0;          ///< m
   double opacity = 1.0;
 };
 
-/// Links with collision geometry, attached bodies, bodies of the world, in this order. A null
+/// Links with collision geometry, attached bodies, bodies of the world, which point into `world`
+/// where they move, in this order. A null
 /// `checker` means no rules and no attached bodies. Null `visuals` mean no colours.
 std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker,
                                  const VisualModel* visuals);

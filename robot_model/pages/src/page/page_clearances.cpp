@@ -43,6 +43,7 @@ std::vector<Placed> placedParts(const PageBody& body, const PageFrames& frames, 
   for (const PageBody::Part& part : body.parts) {
     Eigen::Isometry3d pose = part.body_from_shape;
     if (body.link >= 0) pose = frames.pose(frame, body.link) * pose;
+    if (body.moving != nullptr) pose = body.moving->poseAt(frames.clocks[frame]) * pose;
     BoundingSphere ball = boundingSphere(part.shape);
     ball.center = pose * ball.center;
     placed.push_back({&part.shape, pose, ball});

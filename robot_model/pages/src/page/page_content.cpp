@@ -34,6 +34,19 @@ std::string_view toString(PageBody::Kind kind) {
   return "world";
 }
 
+/// When a body of the world is where: position, then quaternion x, y, z, w.
+Json waypointsJson(const MovingObstacle& obstacle) {
+  std::vector<double> times, poses;
+  for (const MovingObstacle::Waypoint& waypoint : obstacle.waypoints) {
+    times.push_back(waypoint.time);
+    const Eigen::Vector3d place = waypoint.world_from_body.translation();
+    const Eigen::Quaterniond turn(waypoint.world_from_body.linear());
+    poses.insert(poses.end(), place.begin(), place.end());
+    poses.insert(poses.end(), {turn.x(), turn.y(), turn.z(), turn.w()});
+  }
+  return {{"times", packed<double>(times)}, {"poses", packed<double>(poses)}};
+}
+
 Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
                 PageGeometries& geometries) {
   Json json = Json::array();
@@ -46,6 +59,7 @@ Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
                     {"colour", body.colour ? Json(cssColour(*body.colour)) : Json(nullptr)},
                     {"parts", geometries.partsJson(body)}});
     if (body.opacity < 1.0) json.back()["opacity"] = body.opacity;
+    if (body.moving != nullptr) json.back()["motion"] = waypointsJson(*body.moving);
   }
   return json;
 }
@@ -55,6 +69,7 @@ void addDrawings(const PageContent& content, std::vector<PageBody>& bodies) {
     PageBody body{.name = drawing.name,
                   .kind = PageBody::Kind::Drawing,
                   .link = drawing.link,
+                  .moving = nullptr,
                   .parts = {},
                   .colour = drawing.colour,
                   .opacity = drawing.opacity};
@@ -111,8 +126,8 @@ Json trajectoriesJson(const Checker& checker, const PageContent& content,
   for (std::size_t i = 0; i < content.trajectories.size(); ++i) {
     const PageContent::Trajectory& trajectory = content.trajectories[i];
     const TrajectoryCertificate& certificate = trajectory.certificate;
-    const CurvePieces pieces =
-        piecesOf(checker, trajectory.curve, spans[i].steps / kFramesPerPiece);
+    const CurvePieces pieces = piecesOf(checker, trajectory.curve, trajectory.query.clock,
+                                        spans[i].steps / kFramesPerPiece);
     const double proven = certificate.freeUntil - trajectory.curve.begin();
     Json entry = {{"label", trajectory.label},
                   {"path", i},
@@ -165,7 +180,8 @@ std::vector<PageSpan> spansOf(const PageContent& content) {
     spans.push_back({.from = ends(trajectory.curve.begin()),
                      .to = ends(trajectory.curve.end()),
                      .steps = kFramesPerPiece * piecesPerTrajectory(content.trajectories.size()),
-                     .curve = &trajectory.curve});
+                     .curve = &trajectory.curve,
+                     .clock = trajectory.query.clock});
   }
   if (spans.empty())
     for (const PageContent::State& state : content.states)
@@ -218,7 +234,7 @@ Json factsJson(const Robot& robot, const World& world, const Checker* checker,
   if (const auto links = robot.linksWithoutGeometry(); !links.empty())
     add("not checked (no collision geometry)", joined(links));
   if (const std::string text = visualsText(visuals); !text.empty()) add("visual", text);
-  add("bodies in the world", std::to_string(world.bodies().size()));
+  add("bodies in the world", std::to_string(world.bodies().size() + world.obstacles().size()));
   if (!content.command.empty()) add("command", content.command);
   add("swept", SWEPT_VERSION);
   return json;

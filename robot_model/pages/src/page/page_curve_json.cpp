@@ -123,6 +123,7 @@ Json curveJson(const Checker& checker, const PageContent::Trajectory& trajectory
                {"degrees", degreesJson(trajectory.curve)},
                {"coefficients", packedCoefficients(trajectory.curve)},
                {"free_until", certificate.freeUntil},
+               {"clock", trajectory.query.clock},
                {"violations", violationsJson(certificate)},
                {"limits", curveLimitsJson(checker, trajectory.query)},
                {"tube", tubeJson(checker)},

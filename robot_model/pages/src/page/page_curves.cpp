@@ -112,11 +112,13 @@ PiecewisePolynomial partOf(const Robot& robot, const Group& group, const Piecewi
   return {std::move(knots), std::move(pieces)};
 }
 
-CurvePieces piecesOf(const Checker& checker, const PiecewisePolynomial& curve, int count) {
+CurvePieces piecesOf(const Checker& checker, const PiecewisePolynomial& curve, double clock,
+                     int count) {
   Workspace workspace(checker);
   CurvePieces all;
   const std::vector<double> times = partTimes(curve, count);
-  const TrajectoryQuery query{.contact = MotionQuery::VerdictOnly, .clearances = true};
+  const TrajectoryQuery query{
+      .contact = MotionQuery::VerdictOnly, .clock = clock, .clearances = true};
   for (std::size_t i = 1; i < times.size(); ++i) {
     const PiecewisePolynomial part =
         partOf(checker.robot(), checker.group(), curve, times[i - 1], times[i]);

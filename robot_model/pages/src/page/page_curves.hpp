@@ -31,8 +31,9 @@ struct CurvePieces {
   TrajectoryClearance world, self;
 };
 
-/// Each part begins exactly where the one before it ends.
-CurvePieces piecesOf(const Checker& checker, const PiecewisePolynomial& curve, int count);
+/// Each part begins exactly where the one before it ends. `clock`: s, TrajectoryQuery::clock.
+CurvePieces piecesOf(const Checker& checker, const PiecewisePolynomial& curve, double clock,
+                     int count);
 
 /// How many parts of each trajectory are certified by themselves, for this many trajectories.
 int piecesPerTrajectory(std::size_t trajectories);

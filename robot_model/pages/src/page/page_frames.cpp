@@ -50,6 +50,7 @@ void appendCurve(const Robot& robot, const Group& group, const Eigen::VectorXd& 
   UnlimitedPoses poses(robot, group, reference);
   for (int i = 0; i <= span.steps; ++i) {
     poses.moveTo(configurationAt(robot, group, *span.curve, timeAt(*span.curve, i, span.steps)));
+    frames.clocks.push_back(span.clock + timeAt(*span.curve, i, span.steps));
     std::vector<Eigen::Isometry3d>& frame = frames.poses.emplace_back();
     for (const int link : frames.links) frame.push_back(poses.of(link));
   }
@@ -74,6 +75,7 @@ PageFrames framesOf(const Robot& robot, const Group& group,
       continue;
     }
     frames.poses.resize(first + static_cast<std::size_t>(span.steps) + 1);
+    frames.clocks.resize(frames.poses.size(), 0.0);
     for (const int link : frames.links) {
       const std::string& name = robot.links()[static_cast<std::size_t>(link)].name;
       const LinkMotion motion(robot, group.name, name, span.from, span.to, reference);

@@ -16,6 +16,7 @@ struct PageSpan {
   std::vector<double> from, to;
   int steps = 0;
   const PiecewisePolynomial* curve = nullptr;  ///< from one to the other; null: straight
+  double clock = 0.0;  ///< s, what that of moving obstacles shows at the curve's time 0
 };
 
 /// Poses of links, frame by frame.
@@ -23,6 +24,7 @@ struct PageFrames {
   std::vector<int> links;                             ///< indices, in the order of each frame
   std::vector<std::vector<Eigen::Isometry3d>> poses;  ///< model_from_link: [frame][link]
   std::vector<int> firstFrame;                        ///< per span
+  std::vector<double> clocks = {};  ///< s, of moving obstacles, per frame; 0 where is no curve
 
   /// model_from_link of a link that is among `links`.
   const Eigen::Isometry3d& pose(std::size_t frame, int link) const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "certificate/constraints_json.hpp"
+#include "certificate/model_json.hpp"
 #include "certificate/pair_search.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "verify/check.hpp"
@@ -27,8 +28,8 @@ constexpr std::array kSharesInTube = {kShareOfClearance, 0.1, 0.0};
 
 class CertificateSearch {
  public:
-  CertificateSearch(const Checker& checker, const Json& model)
-      : model_(verify::readModel(model)),
+  CertificateSearch(const Checker& checker, const Json& model, double clock)
+      : model_(modelAt(model, clock)),
         pairs_(verify::pairsToProve(model_)),
         constraints_(verify::readConstraints(constraintsJson(checker), model_)),
         inTube_(model.contains("tracking")) {
@@ -61,6 +62,12 @@ class CertificateSearch {
   }
 
  private:
+  static verify::Model modelAt(const Json& json, double clock) {
+    verify::Model model = verify::readModel(json);
+    model.clock = clock;
+    return model;
+  }
+
   /// Whether verifying will show it: the file has nothing for a constraint but itself.
   bool isShown(const verify::Motion& motion, const verify::Constraint& constraint) const {
     try {
@@ -110,10 +117,10 @@ class CertificateSearch {
 
 /// `motionOf` and `clearanceOf`: of a segment. `knots`: what each two of are one.
 template <typename MotionOf, typename ClearanceOf>
-Certificate certificateBetween(const Checker& checker, const Json& knots, const MotionOf& motionOf,
-                               const ClearanceOf& clearanceOf) {
+Certificate certificateBetween(const Checker& checker, const Json& knots, double clock,
+                               const MotionOf& motionOf, const ClearanceOf& clearanceOf) {
   Certificate certificate{.model = modelJson(checker), .proof = nullptr, .missing = {}};
-  CertificateSearch search(checker, certificate.model);
+  CertificateSearch search(checker, certificate.model, clock);
   Json segments = Json::array();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     std::string missing;
@@ -151,10 +158,11 @@ std::string lineNotShown(const Json& modelOfProof, std::span<const std::vector<d
 
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
                           std::span<const double> clearances, const Json& lines) {
+  requireStanding(checker, "a path");
   Json knots = Json::array();
   for (const std::vector<double>& q : states) knots.push_back(toJson(q));
   Certificate certificate = certificateBetween(
-      checker, knots,
+      checker, knots, 0.0,
       [&](const verify::Model& model, std::size_t i) {
         return verify::Motion(model, states[i], states[i + 1]);
       },
@@ -166,7 +174,8 @@ Certificate certificateOf(const Checker& checker, std::span<const std::vector<do
 }
 
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
-                          double clearance) {
+                          double clearance, double clock) {
+  requireTurnsOfProofs(checker);
   const auto pointOf = [&](std::size_t i) {
     const TrajectoryPoint& point = trajectory.points[i];
     return verify::Point{.time = point.time,
@@ -176,7 +185,7 @@ Certificate certificateOf(const Checker& checker, const JointTrajectory& traject
   };
   const Json json = trajectoryJson(trajectory);
   Certificate certificate = certificateBetween(
-      checker, json["points"],
+      checker, json["points"], clock,
       [&](const verify::Model& model, std::size_t i) {
         return verify::Motion(model, pointOf(i), pointOf(i + 1));
       },

@@ -34,7 +34,10 @@ CheckedProof checkedProof(const verify::Summary& summary) {
           .notChecked = summary.allowed,
           .duration = summary.duration,
           .tube = tubeOf(summary),
-          .constraints = summary.constraints};
+          .constraints = summary.constraints,
+          .moving = summary.moving,
+          .clockBegin = summary.clockBegin,
+          .clockEnd = summary.clockEnd};
 }
 
 }  // namespace swept

@@ -28,6 +28,10 @@ Names proofNamesInWorld(const Checker& checker) {
   for (const AttachedBody& body : checker.options().attached) taken.insert(body.name);
   for (const WorldBody& body : checker.world().bodies()) taken.insert(body.name);
   Names names;
+  for (const MovingObstacle& body : checker.world().obstacles()) {
+    taken.insert(body.name);  // it is no link's
+    names[body.name] = body.name;
+  }
   for (const WorldBody& body : checker.world().bodies()) {
     std::string name = body.name;
     if (checker.robot().findLink(name))
@@ -71,9 +75,24 @@ Json jointJson(const Checker& checker, const Joint& joint) {
   return json;
 }
 
+/// The orientations that the checker interpolates between.
+Json waypointsJson(const MovingObstacle& obstacle) {
+  Json list = Json::array();
+  for (const MovingObstacle::Waypoint& waypoint : obstacle.waypoints) {
+    const Eigen::Quaterniond turn(waypoint.world_from_body.linear());
+    list.push_back({{"time", waypoint.time},
+                    {"position", toJson(Eigen::Vector3d(waypoint.world_from_body.translation()))},
+                    {"orientation", {turn.x(), turn.y(), turn.z(), turn.w()}}});
+  }
+  return list;
+}
+
 Json bodyJson(const Checker& checker, const CertifiedBody& body) {
   Json json = {{"name", body.proofName}};
-  json["link"] = body.link < 0 ? Json(nullptr) : Json(checker.robot().links()[body.link].name);
+  if (body.moving != nullptr)
+    json["waypoints"] = waypointsJson(*body.moving);
+  else
+    json["link"] = body.link < 0 ? Json(nullptr) : Json(checker.robot().links()[body.link].name);
   json["shapes"] = Json::array();
   for (const CertifiedBody::Part& part : body.parts) {
     json["shapes"].push_back(exactShapeJson(part.shape));
@@ -134,12 +153,14 @@ std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
   const CollisionRules& rules = checker.options().rules;
   const Names namesInWorld = proofNamesInWorld(checker);
   std::vector<CertifiedBody> bodies;
-  const auto add = [&](const std::string& name, int link, const auto& parts, auto&& poseOf) {
+  const auto add = [&](const std::string& name, int link, const auto& parts, auto&& poseOf,
+                       const MovingObstacle* moving = nullptr) {
     if (parts.empty()) return;
     CertifiedBody body{.name = name,
                        .proofName = link < 0 ? namesInWorld.at(name) : name,
                        .link = link,
-                       .parts = {}};
+                       .parts = {},
+                       .moving = moving};
     for (const auto& part : parts) {
       const double factor = rules.scale(name);
       body.parts.push_back({factor == 1.0 ? part.shape : scaled(part.shape, factor), poseOf(part)});
@@ -156,12 +177,14 @@ std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
   for (const WorldBody& body : checker.world().bodies())
     add(body.name, -1, body.parts,
         [](const WorldBody::Part& part) { return part.world_from_shape; });
+  for (const MovingObstacle& body : checker.world().obstacles())
+    add(
+        body.name, -1, body.parts,
+        [](const MovingObstacle::Part& part) { return part.body_from_shape; }, &body);
   return bodies;
 }
 
 Json modelJson(const Checker& checker) {
-  if (!checker.world().obstacles().empty())
-    throw UsageError("a proof cannot be written beside moving obstacles");
   const Robot& robot = checker.robot();
   Json json = {{"links", Json::array()}, {"variables", Json::array()}, {"joints", Json::array()}};
   for (const Link& link : robot.links()) json["links"].push_back(link.name);
@@ -186,11 +209,33 @@ Json modelJson(const Checker& checker) {
   return json;
 }
 
+void requireTurnsOfProofs(const Checker& checker) {
+  constexpr double kWidest = 3.0;  // rad; the verifier takes a little more
+  for (const MovingObstacle& obstacle : checker.world().obstacles())
+    for (std::size_t i = 1; i < obstacle.waypoints.size(); ++i) {
+      const MovingObstacle::Waypoint &from = obstacle.waypoints[i - 1], &to = obstacle.waypoints[i];
+      const Eigen::Quaterniond turn(from.world_from_body.linear());
+      if (turn.angularDistance(Eigen::Quaterniond(to.world_from_body.linear())) <= kWidest)
+        continue;
+      throw UsageError("'" + obstacle.name + "' turns by about half a turn from " +
+                       shortNumber(from.time) + " to " + shortNumber(to.time) +
+                       " s; a proof needs a waypoint between, which says which way round");
+    }
+}
+
+void requireStanding(const Checker& checker, const std::string& what) {
+  const std::vector<MovingObstacle>& moving = checker.world().obstacles();
+  if (moving.empty()) return;
+  throw UsageError("there is no proof of " + what + " beside '" + moving.front().name +
+                   "', which moves");
+}
+
 void requireModelNames(const Checker& checker, const std::string& where) {
   for (const Link& link : checker.robot().links()) requireUtf8(link.name, where);
   for (const Joint& joint : checker.robot().joints()) requireUtf8(joint.name, where);
   for (const AttachedBody& body : checker.options().attached) requireUtf8(body.name, where);
   for (const WorldBody& body : checker.world().bodies()) requireUtf8(body.name, where);
+  for (const MovingObstacle& body : checker.world().obstacles()) requireUtf8(body.name, where);
   requireUtf8(allowedJson(checker), where);
 }
 

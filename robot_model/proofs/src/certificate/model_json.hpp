@@ -21,6 +21,7 @@ struct CertifiedBody {
     Eigen::Isometry3d body_from_shape;
   };
   std::vector<Part> parts;
+  const MovingObstacle* moving = nullptr;  ///< it moves like this, in the checker's world
 };
 
 /// The bodies with geometry, the robot's first, in the order of modelJson()'s bodies. Where a body
@@ -29,12 +30,18 @@ struct CertifiedBody {
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
 /// The model that a proof is about, in the form that robot_model/verify reads: kinematics, geometry
-/// bit for bit, margins, pairs that may touch, tolerances of joints. Throws UsageError for moving
-/// obstacles, which the form cannot express.
+/// bit for bit, margins, pairs that may touch, tolerances of joints, waypoints of what moves.
 Json modelJson(const Checker& checker);
 
 /// 12 numbers: the rotation by rows, then the translation (m).
 Json poseJson(const Eigen::Isometry3d& pose);
+
+/// Throws UsageError if something of the world moves: `what` has no times, or more than one clock.
+void requireStanding(const Checker& checker, const std::string& what);
+
+/// Throws UsageError if orientations of something that moves are about half a turn apart from one
+/// waypoint to the next: a proof does not tell which way round.
+void requireTurnsOfProofs(const Checker& checker);
 
 /// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is
 /// not UTF-8.

@@ -124,6 +124,10 @@ Json pathJson(const Checker& checker, const PathRecord& record, const Certificat
   json["joint_names"] = jointNames(checker);
   if (!checker.options().constraints.empty()) json["constraints"] = constraintsJson(checker);
   if (!record.lines.empty()) json["lines"] = record.lines;
+  // Of what is in the model: obstacles without geometry are not.
+  if (std::ranges::any_of(checker.world().obstacles(),
+                          [](const MovingObstacle& moving) { return !moving.parts.empty(); }))
+    json["clock"] = record.clock;
   json["states"] = Json::array();
   for (const std::vector<double>& q : record.states) json["states"].push_back(toJson(q));
   if (record.trajectory != nullptr) json["trajectory"] = trajectoryJson(*record.trajectory);

@@ -33,6 +33,7 @@ struct PathRecord {
   std::vector<std::string> warnings;  ///< on what is not checked
   /// That the states are the points of, if they are.
   const JointTrajectory* trajectory = nullptr;
+  double clock = 0.0;          ///< s, of moving obstacles, at the trajectory's time 0
   Json lines = Json::array();  ///< that a tool follows: see linesJson()
 };
 

@@ -228,7 +228,29 @@ void requireSamePairs(const Json& model, const Checker& checker) {
       throw Refusal(std::string(key) + ": the names of pairs cannot be rules");
 }
 
+bool isOfWorld(const Json& body) {
+  return body.contains("waypoints") || at(body, "link", "bodies").is_null();
+}
+
 }  // namespace
+
+MovingObstacle CheckerReader::obstacleOf(const Json& body) {
+  MovingObstacle obstacle{.name = body["name"].get<std::string>(), .parts = {}, .waypoints = {}};
+  for (const Json& json : body["shapes"])
+    obstacle.parts.push_back({shapeOf(json).shape, verify::readPose(json["pose"], "bodies")});
+  for (const Json& json : body["waypoints"]) {
+    const Json& q = json["orientation"];
+    MovingObstacle::Waypoint waypoint{readNumber(json["time"], "waypoints"),
+                                      Eigen::Isometry3d::Identity()};
+    waypoint.world_from_body.translation() = verify::readVector(json["position"], "waypoints");
+    waypoint.world_from_body.linear() = Eigen::Quaterniond(q[3].get<double>(), q[0].get<double>(),
+                                                           q[1].get<double>(), q[2].get<double>())
+                                            .normalized()
+                                            .toRotationMatrix();
+    obstacle.waypoints.push_back(waypoint);
+  }
+  return obstacle;
+}
 
 std::shared_ptr<const Robot> CheckerReader::robotOf(const Json& path) {
   const Json& model = at(path, "model", "the path");
@@ -240,7 +262,7 @@ std::shared_ptr<const Robot> CheckerReader::robotOf(const Json& path) {
   addJoints(model, wordOf(path, "group", "the path"), parts);
   for (const Json& body : readList(model, "bodies", "model")) {
     const int link = detail::indexOf(parts.links, wordOf(body, "name", "bodies"));
-    if (link < 0 || at(body, "link", "bodies").is_null()) continue;
+    if (link < 0 || isOfWorld(body)) continue;
     for (const Json& json : readList(body, "shapes", "bodies")) {
       ReadShape& own = shapeOf(json);
       if (own.cover == nullptr) own.cover = detail::coverOf(own.shape);
@@ -260,7 +282,7 @@ void CheckerReader::addAttached(const Json& model, CheckerOptions& options) {
   for (const Json& name : model["links"]) links.insert(name.get<std::string>());
   for (const Json& body : model["bodies"]) {
     const std::string name = body["name"];
-    if (body["link"].is_null() || links.contains(name)) continue;
+    if (isOfWorld(body) || links.contains(name)) continue;
     AttachedBody own{.name = name, .link = body["link"].get<std::string>()};
     for (const Json& json : body["shapes"])
       own.parts.push_back({shapeOf(json).shape, verify::readPose(json["pose"], "bodies")});
@@ -270,7 +292,11 @@ void CheckerReader::addAttached(const Json& model, CheckerOptions& options) {
 
 void CheckerReader::addWorld(const Json& model, World& world) {
   for (const Json& body : model["bodies"]) {
-    if (!body["link"].is_null()) continue;
+    if (!isOfWorld(body)) continue;
+    if (body.contains("waypoints")) {
+      world.add(obstacleOf(body));
+      continue;
+    }
     WorldBody own{.name = body["name"].get<std::string>(), .parts = {}};
     for (const Json& json : body["shapes"])
       own.parts.push_back({shapeOf(json).shape, verify::readPose(json["pose"], "bodies")});

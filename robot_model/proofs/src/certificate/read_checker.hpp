@@ -34,6 +34,7 @@ class CheckerReader {
   };
   std::shared_ptr<const Robot> robotOf(const Json& path);
   void addWorld(const Json& model, World& world);
+  MovingObstacle obstacleOf(const Json& body);
   void addAttached(const Json& model, CheckerOptions& options);
   ReadShape& shapeOf(const Json& json);
 

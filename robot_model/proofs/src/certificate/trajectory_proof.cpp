@@ -37,8 +37,8 @@ void requireVariables(const JointTrajectory& trajectory, const Checker& checker)
 
 Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                      const TrajectoryCertificate& certificate,
-                     const std::vector<std::string>& warnings, const std::string& where,
-                     std::string& missing) {
+                     const std::vector<std::string>& warnings, double clock,
+                     const std::string& where, std::string& missing) {
   requireVariables(trajectory, checker);
   controllerCurve(trajectory);  // sizes, times and values are what they have to be
   const ProvenPath path = provenPath(trajectory, certificate);
@@ -48,8 +48,10 @@ Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                           .segments = path.segments,
                           .inputs = nullptr,
                           .warnings = warnings,
-                          .trajectory = &trajectory};
-  const Certificate found = certificateOf(checker, trajectory, path.segments.front().clearance);
+                          .trajectory = &trajectory,
+                          .clock = clock};
+  const Certificate found =
+      certificateOf(checker, trajectory, path.segments.front().clearance, clock);
   missing = found.missing;
   return missing.empty() ? pathJson(checker, record, found, true, where) : Json();
 }

@@ -16,7 +16,7 @@ namespace swept {
 /// does, UsageError beginning with `where`.
 Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                      const TrajectoryCertificate& certificate,
-                     const std::vector<std::string>& warnings, const std::string& where,
-                     std::string& missing);
+                     const std::vector<std::string>& warnings, double clock,
+                     const std::string& where, std::string& missing);
 
 }  // namespace swept

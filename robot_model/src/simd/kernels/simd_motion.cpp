@@ -210,7 +210,7 @@ void SimdMotion::placeEighths() {
     block.half.lane[lane] = 1.0F / (2.0F * kLanes);
   }
   if (scratch_.curved) linearizeLanes();
-  placeFrames(model_, scratch_.motion, model_.allBodies, block);
+  detail::placeFrames(model_, scratch_.motion, model_.allBodies, block);
 }
 
 void SimdMotion::bound() {

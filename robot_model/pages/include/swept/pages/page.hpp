@@ -44,7 +44,7 @@ class Page {
   /// Adds a state, motion or path. `label`: its name on the page. Configurations have a value for
   /// each variable of the checker's group, m or rad. A path of a single state stays there. Throws
   /// std::invalid_argument for another number of values, a non-finite value, another kind than was
-  /// added before, and a path without a state.
+  /// added before, a world with moving obstacles, and a path without a state.
   void addState(const std::string& label, std::span<const double> state);
   void addMotion(const std::string& label, std::span<const double> from,
                  std::span<const double> to);
@@ -54,10 +54,10 @@ class Page {
   /// The page shows the limits of positions and of `query`, the tube of CheckerOptions::tracking,
   /// and the clearance of each of up to 96 equal parts, proven for the curve itself, without its
   /// tube. `polyline`: configurations that the curve was made from, shown beside it as straight
-  /// motions.
+  /// motions. Moving obstacles are shown where they are at TrajectoryQuery::clock plus the time.
   ///
-  /// Throws std::invalid_argument as addPath() and Checker::certifyTrajectory() do, and for a world
-  /// with moving obstacles, and an orientation with a quaternion of zero.
+  /// Throws std::invalid_argument as addPath() but for moving obstacles, as
+  /// Checker::certifyTrajectory(), and for an orientation with a quaternion of zero.
   void addTrajectory(const std::string& label, const PiecewisePolynomial& curve,
                      const TrajectoryQuery& query = {},
                      std::span<const std::vector<double>> polyline = {});

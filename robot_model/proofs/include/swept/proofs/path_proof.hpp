@@ -41,7 +41,8 @@ struct WrittenProof {
 /// hold wherever CheckerOptions::tracking lets the robot be. The constraints of the checker are in
 /// the file, and need no planes: whoever checks it proves them from the states.
 ///
-/// Throws UsageError for a path that is not Free, a world with moving obstacles, names that are not
+/// Throws UsageError for a path that is not Free, a world with moving obstacles (a path has no
+/// times; writeTrajectoryProof() takes them), names that are not
 /// UTF-8, a file that cannot be written or has another extension, and a proof that is larger than
 /// readable files (kMaxTextBytes); std::invalid_argument for a certificate with another number of
 /// segments, or without clearances.
@@ -51,15 +52,20 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
 
 /// The same for a trajectory: for the curve that controllerCurve() makes of it, from its first
 /// point to its last. A start that is no point of it is not part of the file. `certificate`: the
-/// result of certifyTrajectory() for that curve, with clearances.
+/// result of certifyTrajectory() for that curve, with clearances. Moving obstacles are in the file
+/// with their waypoints, and the planes hold beside them. `clock`: s, TrajectoryQuery::clock of the
+/// certificate.
 ///
-/// Throws UsageError as writeProof() does, and for a curve that leaves the limits of a position;
+/// Throws UsageError as writeProof() does but for moving obstacles, for a curve that leaves the
+/// limits of a position, and for an obstacle that turns by about half a turn from one waypoint to
+/// the next;
 /// std::invalid_argument for a trajectory that controllerCurve() refuses, variables other than the
 /// group's in its order, a certificate that ends at another time, or one without clearances.
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
-                                  const std::vector<std::string>& warnings = {});
+                                  const std::vector<std::string>& warnings = {},
+                                  double clock = 0.0);
 
 /// The same for lines of a ToolLinePlanner, one after the other, each of which begins where the one
 /// before ends: for the straight motions between their way points. The file also says, and whoever
@@ -99,6 +105,12 @@ struct CheckedProof {
   /// What holds at every instant besides, in words: `axis (0, 0, 1) of hand within 0.0873 rad of
   /// (0, 0, 1)`.
   std::vector<std::string> constraints = {};
+  /// Names of moving obstacles: the pairs keep apart from them, too, on their clock.
+  std::vector<std::string> moving = {};
+  ///@{
+  /// s. What the clock shows at the first and at the last point; 0 if nothing moves.
+  double clockBegin = 0.0, clockEnd = 0.0;
+  ///@}
 
   bool holds() const { return refusal.empty(); }  ///< whether the file's claims are proven
 };
@@ -109,8 +121,7 @@ struct CheckedProof {
 CheckedProof verifyProof(const std::filesystem::path& file);
 
 /// The same for any path file with a proof; also checks that robot, world and rules are those of
-/// `checker`, and that the file shows its constraints, if it has any. Throws UsageError for a world
-/// with moving obstacles.
+/// `checker`, and that the file shows its constraints, if it has any.
 CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker);
 
 }  // namespace swept
