@@ -92,8 +92,8 @@ TEST_F(ReportFiles, CsvSaysWhatTheJsonSays) {
       {"relative_time", "relative_time"}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const nlohmann::json& row = json_["rows"][i];
-    EXPECT_EQ(rows[i].at("part"), row["part"]);
-    EXPECT_EQ(rows[i].at("method"), row["method"]);
+    EXPECT_EQ(rows[i].at("part"), row["part"].get<std::string>());
+    EXPECT_EQ(rows[i].at("method"), row["method"].get<std::string>());
     for (const auto& [title, key] : columns) {
       const nlohmann::json value = row.value(key, nlohmann::json());
       const std::string& cell = rows[i].at(title);
