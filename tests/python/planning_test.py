@@ -147,6 +147,16 @@ def test_trajectories(slot, plan, tmp_path):
         assert read.accelerations is None
     swept.write_trajectory_proof(tmp_path / "proof.json", slot, proven.trajectory)
     assert swept.verify(tmp_path / "proof.json").duration == pytest.approx(curve.duration)
+    # Beside a ball that stands in the way until the clock shows 5 s.
+    at, away = np.eye(4), np.eye(4)
+    at[:3, 3] = slot.robot.link_pose("arm", "hand", curve.position(0.5 * curve.duration))[:3, 3]
+    away[:3, 3] = [5.0, 0.0, 0.0]
+    late = slot.with_obstacle("ball", swept.Shape.sphere(0.05), [0.0, 4.0, 5.0], [at, at, away])
+    assert late.certify_trajectory(proven.trajectory).verdict is Verdict.COLLISION
+    with pytest.raises(swept.UsageError):
+        swept.write_trajectory_proof(tmp_path / "early.json", late, proven.trajectory)
+    swept.write_trajectory_proof(tmp_path / "late.json", late, proven.trajectory, clock=6.0)
+    assert swept.verify(tmp_path / "late.json").duration == pytest.approx(curve.duration)
     tight = slot.certify_trajectory(proven.trajectory, limits=swept.RateLimits(slot, velocity=0.01))
     assert {v.kind for v in tight.violations} == {swept.LimitKind.VELOCITY}
 

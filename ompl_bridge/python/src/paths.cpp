@@ -105,15 +105,16 @@ void write(const std::filesystem::path& file, const CheckerHandle& checker, cons
 }
 
 void writeOfTrajectory(const std::filesystem::path& file, const CheckerHandle& checker,
-                       const JointTrajectory& trajectory,
-                       const TrajectoryCertificate* certificate) {
+                       const JointTrajectory& trajectory, const TrajectoryCertificate* certificate,
+                       double clock) {
   const py::gil_scoped_release others;
   if (certificate != nullptr && certificate->world && certificate->self)
-    return requireWritten(writeTrajectoryProof(file, checker.checker(), trajectory, *certificate));
+    return requireWritten(
+        writeTrajectoryProof(file, checker.checker(), trajectory, *certificate, {}, clock));
   Workspace workspace(checker.checker());
   const TrajectoryCertificate own = checker.checker().certifyTrajectory(
-      controllerCurve(trajectory), workspace, {.limits = {}, .clearances = true});
-  requireWritten(writeTrajectoryProof(file, checker.checker(), trajectory, own));
+      controllerCurve(trajectory), workspace, {.limits = {}, .clock = clock, .clearances = true});
+  requireWritten(writeTrajectoryProof(file, checker.checker(), trajectory, own, {}, clock));
 }
 
 CheckedProof verify(const std::filesystem::path& file, const CheckerHandle* checker) {
@@ -154,9 +155,11 @@ void bindProofs(py::module_& module) {
       "verify`. `certificate`: of certify_path, for the same path. Raises\nUsageError for a "
       "path that is not FREE, or for which no proof was found.");
   module.def("write_trajectory_proof", &writeOfTrajectory, py::arg("file"), py::arg("checker"),
-             py::arg("trajectory"), py::arg("certificate") = nullptr,
+             py::arg("trajectory"), py::arg("certificate") = nullptr, py::kw_only(),
+             py::arg("clock") = 0.0,
              "The same for the curve of a Trajectory. `certificate`: of certify_trajectory with "
-             "`clearances`, for the same trajectory.");
+             "`clearances`, for the same trajectory and `clock`: s, what\nmoving obstacles' clock "
+             "shows at time 0. They are in the file, with their waypoints.");
   module.def("verify", &verify, py::arg("file"), py::arg("checker") = nullptr,
              "CheckedProof of a file, by a checker that shares no code with what found the proof. "
              "`checker`: also compares robot, world,\nrules and constraints with its own. Raises "

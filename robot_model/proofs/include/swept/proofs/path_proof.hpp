@@ -42,10 +42,10 @@ struct WrittenProof {
 /// the file, and need no planes: whoever checks it proves them from the states.
 ///
 /// Throws UsageError for a path that is not Free, a world with moving obstacles (a path has no
-/// times; writeTrajectoryProof() takes them), names that are not
-/// UTF-8, a file that cannot be written or has another extension, and a proof that is larger than
-/// readable files (kMaxTextBytes); std::invalid_argument for a certificate with another number of
-/// segments, or without clearances.
+/// times; writeTrajectoryProof() takes them), names that are not UTF-8, a file that cannot be
+/// written or has another extension, and a proof that is larger than readable files
+/// (kMaxTextBytes); std::invalid_argument for a certificate with another number of segments, or
+/// without clearances.
 WrittenProof writeProof(const std::filesystem::path& file, const Checker& checker,
                         const ConfigurationList& states, const PathCertificate& certificate,
                         const std::vector<std::string>& warnings = {});
@@ -58,9 +58,9 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
 ///
 /// Throws UsageError as writeProof() does but for moving obstacles, for a curve that leaves the
 /// limits of a position, and for an obstacle that turns by about half a turn from one waypoint to
-/// the next;
-/// std::invalid_argument for a trajectory that controllerCurve() refuses, variables other than the
-/// group's in its order, a certificate that ends at another time, or one without clearances.
+/// the next; std::invalid_argument for a trajectory that controllerCurve() refuses, variables other
+/// than the group's in its order, a certificate that ends at another time, or one without
+/// clearances.
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
