@@ -273,7 +273,7 @@ int stoppedTimes(const Work& work) {
       stop.request_stop();
     });
     try {
-      work(stop.get_token());
+      work([&] { return stop.stop_requested(); });
     } catch (const SearchStopped& error) {
       EXPECT_STREQ(error.what(), "stopped before it was done");
       ++stopped;
@@ -285,7 +285,7 @@ int stoppedTimes(const Work& work) {
 TEST(EnclosingSpheres, AreNoLongerSearchedForOnceStopped) {
   std::mt19937 random(3);
   const auto body = bodies(random).front();
-  EXPECT_GT(stoppedTimes([&](const std::stop_token& stop) {
+  EXPECT_GT(stoppedTimes([&](const StopQuestion& stop) {
               EnclosingSpheresSearch search(body, {}, stop);
               try {
                 search.atMost(12, stop);
@@ -298,13 +298,12 @@ TEST(EnclosingSpheres, AreNoLongerSearchedForOnceStopped) {
               }
             }),
             5);
-  std::stop_source stop;
-  stop.request_stop();
+  const StopQuestion over = [] { return true; };
   EnclosingSpheresSearch search(body, quick());
-  EXPECT_THROW(search.within(0.1, stop.get_token()), SearchStopped);
+  EXPECT_THROW(search.within(0.1, over), SearchStopped);
   const std::vector<EnclosingSphere> one{{Vector3d::Zero(), 0.1}};
-  EXPECT_THROW(outsideSpheres(body, one, {.stop = stop.get_token()}), SearchStopped);
-  EXPECT_THROW(sphereExcess(body, one, {.stop = stop.get_token()}), SearchStopped);
+  EXPECT_THROW(outsideSpheres(body, one, {.stop = over}), SearchStopped);
+  EXPECT_THROW(sphereExcess(body, one, {.stop = over}), SearchStopped);
 }
 
 TEST(EnclosingShapes, AreNoLongerSearchedForOnceStopped) {
@@ -312,15 +311,16 @@ TEST(EnclosingShapes, AreNoLongerSearchedForOnceStopped) {
   const auto body = bodies(random).front();
   for (const EnclosingKind kind :
        {EnclosingKind::Capsule, EnclosingKind::Box, EnclosingKind::Convex}) {
-    std::stop_source stop;
-    EnclosingShapesSearch search(body, kind, {.pieces = 30}, stop.get_token());
-    EXPECT_GT(search.atMost(4, stop.get_token()).shapes.size(), 0u);
-    stop.request_stop();
-    EXPECT_THROW(search.atMost(4, stop.get_token()), SearchStopped);
+    bool isOver = false;
+    const StopQuestion over = [&isOver] { return isOver; };
+    EnclosingShapesSearch search(body, kind, {.pieces = 30}, over);
+    EXPECT_GT(search.atMost(4, over).shapes.size(), 0u);
+    isOver = true;
+    EXPECT_THROW(search.atMost(4, over), SearchStopped);
     EXPECT_THROW(search.reachFor(4), SearchStopped);
     EXPECT_THROW(search.countFor(0.1), SearchStopped);
     EXPECT_THROW(search.within(0.1), SearchStopped);
-    EXPECT_THROW(EnclosingShapesSearch(body, kind, {}, stop.get_token()), SearchStopped);
+    EXPECT_THROW(EnclosingShapesSearch(body, kind, {}, over), SearchStopped);
   }
 }
 

@@ -28,7 +28,7 @@ struct EnclosingShapesSearch::Data {
 
 EnclosingShapesSearch::EnclosingShapesSearch(std::span<const PosedShape> body, EnclosingKind kind,
                                              const EnclosingShapesOptions& options,
-                                             const std::stop_token& stop) {
+                                             const StopQuestion& stop) {
   data_ = inDefaultEnvironment([&] {
     detail::requireSphereOption("pieces", options.pieces, 1.0);
     if (body.empty()) throw std::invalid_argument("a body without shapes needs none around it");
@@ -55,14 +55,14 @@ double EnclosingShapesSearch::reachFor(int count) const {
   });
 }
 
-EnclosingShapes EnclosingShapesSearch::atMost(int count, const std::stop_token& stop) {
+EnclosingShapes EnclosingShapesSearch::atMost(int count, const StopQuestion& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("count", count, 1.0);
     return data_->ask([&](auto& fit) { return fit.atMost(count, stop); });
   });
 }
 
-EnclosingShapes EnclosingShapesSearch::within(double reach, const std::stop_token& stop) {
+EnclosingShapes EnclosingShapesSearch::within(double reach, const StopQuestion& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("reach", reach, 0.0, true);
     return data_->ask([&](auto& fit) { return fit.within(reach, stop); });

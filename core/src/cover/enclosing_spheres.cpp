@@ -30,7 +30,7 @@ struct EnclosingSpheresSearch::Data {
 
 EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
                                                const EnclosingSpheresOptions& options,
-                                               const std::stop_token& stop) {
+                                               const StopQuestion& stop) {
   data_ = inDefaultEnvironment([&] {
     detail::requireSphereOption("pieces", options.pieces, 1.0);
     detail::requireSphereOption("restarts", options.restarts, 1.0);
@@ -52,14 +52,14 @@ int EnclosingSpheresSearch::countFor(double reach) const {
   });
 }
 
-EnclosingSpheres EnclosingSpheresSearch::atMost(int count, const std::stop_token& stop) {
+EnclosingSpheres EnclosingSpheresSearch::atMost(int count, const StopQuestion& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("count", count, 1.0);
     return data_->ask([&](auto& fit) { return fit.atMost(count, stop); });
   });
 }
 
-EnclosingSpheres EnclosingSpheresSearch::within(double reach, const std::stop_token& stop) {
+EnclosingSpheres EnclosingSpheresSearch::within(double reach, const StopQuestion& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("reach", reach, 0.0, true);
     return data_->ask([&](auto& fit) { return fit.within(reach, stop); });

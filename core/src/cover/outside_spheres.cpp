@@ -76,7 +76,7 @@ class OutsideSearch {
   double upper() const { return open_.empty() ? lower_ : std::max(lower_, open_.front().upper); }
   const Vector3d& point() const { return point_; }
 
-  double surfaceShare(int samples, const std::stop_token& stop) const;
+  double surfaceShare(int samples, const StopQuestion& stop) const;
 
  private:
   struct Open {
@@ -133,7 +133,7 @@ class OutsideSearch {
 };
 
 /// Of points spread over the triangles by area; of clouds, over their points.
-double OutsideSearch::surfaceShare(int samples, const std::stop_token& stop) const {
+double OutsideSearch::surfaceShare(int samples, const StopQuestion& stop) const {
   double out = 0.0;
   double all = 0.0;
   std::mt19937 random(1);

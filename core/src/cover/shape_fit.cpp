@@ -302,7 +302,7 @@ PosedShape hullAround(std::span<const Vector3d> points, double pad, double toler
 }  // namespace
 
 ShapeFit::ShapeFit(std::span<const PosedShape> body, EnclosingKind kind,
-                   const EnclosingShapesOptions& options, const std::stop_token& stop)
+                   const EnclosingShapesOptions& options, const StopQuestion& stop)
     : source_(body.begin(), body.end()), kind_(kind), stop_(stop), body_(body) {
   divide(options.pieces);
   findFrames(body);
@@ -491,13 +491,13 @@ double ShapeFit::reachFor(int count) const {
   return found == reaches.end() ? reaches.back() : *found;
 }
 
-EnclosingShapes ShapeFit::atMost(int count, const std::stop_token& stop) {
+EnclosingShapes ShapeFit::atMost(int count, const StopQuestion& stop) {
   stop_ = stop;
   return finished(cut(reachFor(count)));
 }
 
 /// Samples miss some of what reaches farthest, so less is aimed at until the proven bound is met.
-EnclosingShapes ShapeFit::within(double reach, const std::stop_token& stop) {
+EnclosingShapes ShapeFit::within(double reach, const StopQuestion& stop) {
   stop_ = stop;
   constexpr int kMostTries = 8;
   EnclosingShapes found;

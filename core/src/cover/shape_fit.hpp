@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <deque>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "cover/posed_body.hpp"
@@ -16,12 +15,12 @@ namespace swept::detail {
 class ShapeFit {
  public:
   ShapeFit(std::span<const PosedShape> body, EnclosingKind kind,
-           const EnclosingShapesOptions& options, const std::stop_token& stop);
+           const EnclosingShapesOptions& options, const StopQuestion& stop);
 
   int countFor(double reach) const { return static_cast<int>(cut(reach).size()); }
   double reachFor(int count) const;
-  EnclosingShapes atMost(int count, const std::stop_token& stop);
-  EnclosingShapes within(double reach, const std::stop_token& stop);
+  EnclosingShapes atMost(int count, const StopQuestion& stop);
+  EnclosingShapes within(double reach, const StopQuestion& stop);
 
  private:
   using Pieces = std::vector<const BodyPiece*>;
@@ -62,7 +61,7 @@ class ShapeFit {
 
   std::vector<PosedShape> source_;
   EnclosingKind kind_;
-  std::stop_token stop_;  ///< of the present call
+  StopQuestion stop_;  ///< of the present call
   PosedBody body_;
   double size_ = 0.0;  ///< m
   std::deque<BodyPiece> pieces_;

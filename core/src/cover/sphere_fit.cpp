@@ -45,7 +45,7 @@ bool isBetter(const auto& balls, const auto& than, double gain) {
 }  // namespace
 
 SphereFit::SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options,
-                     const std::stop_token& stop)
+                     const StopQuestion& stop)
     : options_(options), stop_(stop), body_(body) {
   divide(options.pieces, std::numeric_limits<double>::infinity());
   findPlaces();
@@ -370,7 +370,7 @@ SphereFit::Balls SphereFit::changed(Balls balls, int count) const {
   return balls;
 }
 
-EnclosingSpheres SphereFit::atMost(int count, const std::stop_token& stop) {
+EnclosingSpheres SphereFit::atMost(int count, const StopQuestion& stop) {
   stop_ = stop;
   auto found = found_.find(count);
   if (found == found_.end()) {
@@ -390,7 +390,7 @@ EnclosingSpheres SphereFit::atMost(int count, const std::stop_token& stop) {
   return finished(found->second.balls);
 }
 
-EnclosingSpheres SphereFit::within(double reach, const std::stop_token& stop) {
+EnclosingSpheres SphereFit::within(double reach, const StopQuestion& stop) {
   stop_ = stop;
   // Dividing them also puts them in another order.
   found_.clear();

@@ -6,7 +6,6 @@
 #include <map>
 #include <random>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "cover/posed_body.hpp"
@@ -18,12 +17,12 @@ namespace swept::detail {
 class SphereFit {
  public:
   SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options,
-            const std::stop_token& stop);
+            const StopQuestion& stop);
 
   /// Of the greedy choice.
   int countFor(double reach) const;
-  EnclosingSpheres atMost(int count, const std::stop_token& stop);
-  EnclosingSpheres within(double reach, const std::stop_token& stop);
+  EnclosingSpheres atMost(int count, const StopQuestion& stop);
+  EnclosingSpheres within(double reach, const StopQuestion& stop);
 
  private:
   struct Place {
@@ -62,7 +61,7 @@ class SphereFit {
   EnclosingSpheres finished(Balls balls);
 
   EnclosingSpheresOptions options_;
-  std::stop_token stop_;  ///< of the present call
+  StopQuestion stop_;  ///< of the present call
   PosedBody body_;
   double size_ = 0.0;  ///< m
   std::vector<BodyPiece> pieces_;

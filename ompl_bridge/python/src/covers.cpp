@@ -24,7 +24,7 @@ namespace {
 class SearchHandle {
  public:
   SearchHandle(const std::vector<PosedShape>& body, const EnclosingSpheresOptions& options,
-               const std::stop_token& stop)
+               const StopQuestion& stop)
       : search_(body, options, stop) {}
   /// question(search), without the GIL, one thread at a time.
   template <typename Question>
@@ -90,7 +90,7 @@ void bindOutside(py::module_& module) {
         const std::vector<PosedShape> body = posedOf(shape);
         const std::vector<EnclosingSphere> all = spheresOf(spheres, "spheres");
         return watched(cancel, [&](const std::stop_token& stop) {
-          return outsideSpheres(body, all, {tolerance, mostSplits, samples, stop});
+          return outsideSpheres(body, all, {tolerance, mostSplits, samples, questionOf(stop)});
         });
       },
       py::arg("shape"), py::arg("spheres"), py::kw_only(), py::arg("tolerance") = usual.tolerance,
@@ -109,7 +109,8 @@ void bindOutside(py::module_& module) {
         const std::vector<PosedShape> body = posedOf(shape);
         const std::vector<EnclosingSphere> all = spheresOf(spheres, "spheres");
         return watched(cancel, [&](const std::stop_token& stop) {
-          return sphereExcess(body, all, {samples, tolerance, mostDistances, seed, stop});
+          return sphereExcess(body, all,
+                              {samples, tolerance, mostDistances, seed, questionOf(stop)});
         });
       },
       py::arg("shape"), py::arg("spheres"), py::kw_only(), py::arg("samples") = measured.samples,
@@ -183,7 +184,7 @@ void bindCovers(py::module_& module) {
              const std::vector<PosedShape> body = posedOf(shape);
              const EnclosingSpheresOptions options{pieces, restarts, rounds, seed};
              return watched(cancel, [&](const std::stop_token& stop) {
-               return std::make_unique<SearchHandle>(body, options, stop);
+               return std::make_unique<SearchHandle>(body, options, questionOf(stop));
              });
            }),
            py::arg("shape"), py::kw_only(), py::arg("pieces") = usual.pieces,
@@ -208,7 +209,7 @@ void bindCovers(py::module_& module) {
           [](SearchHandle& self, int count, const Token& cancel) {
             return self.askWatched(
                 cancel, [&](EnclosingSpheresSearch& search, const std::stop_token& stop) {
-                  return search.atMost(count, stop);
+                  return search.atMost(count, questionOf(stop));
                 });
           },
           py::arg("count"), py::kw_only(), py::arg("cancel") = py::none(),
@@ -219,7 +220,7 @@ void bindCovers(py::module_& module) {
           [](SearchHandle& self, double reach, const Token& cancel) {
             return self.askWatched(
                 cancel, [&](EnclosingSpheresSearch& search, const std::stop_token& stop) {
-                  return search.within(reach, stop);
+                  return search.within(reach, questionOf(stop));
                 });
           },
           py::arg("reach"), py::kw_only(), py::arg("cancel") = py::none(),

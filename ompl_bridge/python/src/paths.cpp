@@ -113,7 +113,7 @@ void writeOfTrajectory(const std::filesystem::path& file, const CheckerHandle& c
         writeTrajectoryProof(file, checker.checker(), trajectory, *certificate, {}, clock));
   Workspace workspace(checker.checker());
   const TrajectoryCertificate own = checker.checker().certifyTrajectory(
-      controllerCurve(trajectory), workspace, {.limits = {}, .clock = clock, .clearances = true});
+      controllerCurve(trajectory), workspace, {.clock = clock, .limits = {}, .clearances = true});
   requireWritten(writeTrajectoryProof(file, checker.checker(), trajectory, own, {}, clock));
 }
 

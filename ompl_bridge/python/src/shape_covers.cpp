@@ -25,7 +25,7 @@ namespace {
 class ShapeSearchHandle {
  public:
   ShapeSearchHandle(const std::vector<PosedShape>& body, EnclosingKind kind,
-                    const EnclosingShapesOptions& options, const std::stop_token& stop)
+                    const EnclosingShapesOptions& options, const StopQuestion& stop)
       : search_(body, kind, options, stop) {}
   /// question(search), without the GIL, one thread at a time.
   template <typename Question>
@@ -80,8 +80,8 @@ void bindSearch(py::module_& module) {
                 const std::vector<PosedShape> body = posedOf(shape);
                 const EnclosingKind of = enclosingKindOf(kind, "kind");
                 return watched(cancel, [&](const std::stop_token& stop) {
-                  return std::make_unique<ShapeSearchHandle>(body, of,
-                                                             EnclosingShapesOptions{pieces}, stop);
+                  return std::make_unique<ShapeSearchHandle>(
+                      body, of, EnclosingShapesOptions{pieces}, questionOf(stop));
                 });
               }),
           py::arg("shape"), py::arg("kind"), py::kw_only(), py::arg("pieces") = usual.pieces,
@@ -111,7 +111,7 @@ void bindSearch(py::module_& module) {
           "at_most",
           [](ShapeSearchHandle& self, int count, const Token& cancel) {
             return self.askWatched(cancel, [&](Search& search, const std::stop_token& stop) {
-              return search.atMost(count, stop);
+              return search.atMost(count, questionOf(stop));
             });
           },
           py::arg("count"), py::kw_only(), py::arg("cancel") = py::none(),
@@ -121,7 +121,7 @@ void bindSearch(py::module_& module) {
           "within",
           [](ShapeSearchHandle& self, double reach, const Token& cancel) {
             return self.askWatched(cancel, [&](Search& search, const std::stop_token& stop) {
-              return search.within(reach, stop);
+              return search.within(reach, questionOf(stop));
             });
           },
           py::arg("reach"), py::kw_only(), py::arg("cancel") = py::none(),
@@ -142,7 +142,7 @@ void bindShapeCovers(py::module_& module) {
          int samples, const Token& cancel) {
         const std::vector<PosedShape> body = posedOf(shape), all = posedOf(shapes);
         return watched(cancel, [&](const std::stop_token& stop) {
-          return outsideShapes(body, all, {tolerance, mostSplits, samples, stop});
+          return outsideShapes(body, all, {tolerance, mostSplits, samples, questionOf(stop)});
         });
       },
       py::arg("shape"), py::arg("shapes"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
@@ -161,7 +161,8 @@ void bindShapeCovers(py::module_& module) {
          double tolerance, int mostDistances, std::uint32_t seed, const Token& cancel) {
         const std::vector<PosedShape> body = posedOf(shape), all = posedOf(shapes);
         return watched(cancel, [&](const std::stop_token& stop) {
-          return shapesExcess(body, all, growth, {samples, tolerance, mostDistances, seed, stop});
+          return shapesExcess(body, all, growth,
+                              {samples, tolerance, mostDistances, seed, questionOf(stop)});
         });
       },
       py::arg("shape"), py::arg("shapes"), py::arg("growth") = 0.0, py::kw_only(),

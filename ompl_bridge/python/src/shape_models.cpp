@@ -91,7 +91,7 @@ void saveShapes(const ShapeModel& self, const std::filesystem::path& file,
     throw UsageError("'" + file.string() + "' ends in '" + ending + "'; allowed: .urdf, .json");
   const std::string text = watched(nullptr, [&](const std::stop_token& stop) {
     return shapeModelJson(self, robot.robot->name(),
-                          judgeShapeModel(*robot.robot, self, {.stop = stop}));
+                          judgeShapeModel(*robot.robot, self, {.stop = questionOf(stop)}));
   });
   const py::gil_scoped_release others;
   writeText(file, text);
@@ -135,8 +135,8 @@ void bindShapeModels(py::module_& module) {
           [](const ShapeModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
              int samples, unsigned threads, const Token& cancel) {
             return py::tuple(py::cast(watched(cancel, [&](const std::stop_token& stop) {
-              return judgeShapeModel(*robot.robot, self, {tolerance, mostSplits, samples, stop},
-                                     threads);
+              return judgeShapeModel(*robot.robot, self,
+                                     {tolerance, mostSplits, samples, questionOf(stop)}, threads);
             })));
           },
           py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,

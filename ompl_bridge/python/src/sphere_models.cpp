@@ -71,7 +71,8 @@ SphereModel load(const std::filesystem::path& file, const RobotHandle& robot) {
 Reports judge(const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
               int samples, unsigned threads, const Token& cancel) {
   return watched(cancel, [&](const std::stop_token& stop) {
-    return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples, stop}, threads);
+    return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples, questionOf(stop)},
+                            threads);
   });
 }
 
@@ -80,7 +81,8 @@ std::string textOf(const SphereModel& self, const std::filesystem::path& file,
   const std::string& name = robot.robot->name();
   const std::string ending = endingOf(file);
   if (ending == ".json")
-    return sphereModelJson(self, name, judgeSphereModel(*robot.robot, self, {.stop = stop}));
+    return sphereModelJson(self, name,
+                           judgeSphereModel(*robot.robot, self, {.stop = questionOf(stop)}));
   if (ending == ".yaml" || ending == ".yml") return curoboSpheres(self, name);
   if (ending == ".xrdf") return xrdfSpheres(self);
   const Source& source = robot.source;

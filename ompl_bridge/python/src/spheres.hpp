@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <stop_token>
 #include <vector>
 
 #include "swept/core/enclosing_spheres.hpp"
@@ -19,5 +20,9 @@ pybind11::object arrayOf(const std::vector<EnclosingSphere>& spheres);
 std::vector<PosedShape> posedOf(const pybind11::object& shape);
 pybind11::list listOf(const std::vector<PosedShape>& shapes);
 ///@}
+
+inline StopQuestion questionOf(const std::stop_token& stop) {
+  return [stop] { return stop.stop_requested(); };
+}
 
 }  // namespace swept::python

@@ -24,20 +24,20 @@ class SphereShares {
     searches_.resize(links_.size());
     found_.resize(links_.size());
     forLinks([&](std::size_t i) {
-      searches_[i] = std::make_unique<EnclosingSpheresSearch>(bodyOf(*links_[i]), options_.search,
-                                                              options_.stop);
+      searches_[i] =
+          std::make_unique<EnclosingSpheresSearch>(bodyOf(*links_[i]), options_.search, isOver_);
     });
   }
 
   std::size_t linkCount() const { return links_.size(); }
 
   void findWithin(double excess) {
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, options_.stop); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, isOver_); });
   }
 
   void findAtMost(int spheres) {
     std::vector<int> counts = countsFor(spheres);
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i], options_.stop); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i], isOver_); });
     giveRest(spheres, counts);
     exchange(counts);
     searchAgain(counts);
@@ -53,7 +53,7 @@ class SphereShares {
  private:
   void forLinks(const std::function<void(std::size_t)>& work) {
     detail::forEachIndex(links_.size(), options_.threads, [&](std::size_t i) {
-      if (options_.stop.stop_requested()) throw SearchStopped();
+      if (isOver_()) throw SearchStopped();
       work(i);
     });
   }
@@ -96,7 +96,7 @@ class SphereShares {
       if (takers.empty()) return;
       detail::forEachIndex(takers.size(), options_.threads, [&](std::size_t k) {
         const std::size_t i = takers[k];
-        EnclosingSpheres more = searches_[i]->atMost(counts[i] + 1, options_.stop);
+        EnclosingSpheres more = searches_[i]->atMost(counts[i] + 1, isOver_);
         if (more.reach < found_[i].reach) found_[i] = std::move(more);
       });
       for (const std::size_t i : takers) {
@@ -113,8 +113,7 @@ class SphereShares {
     std::vector<std::optional<EnclosingSpheres>> fewer(links_.size());
     for (int step = 0; step < kMostExchanges && links_.size() > 1; ++step) {
       forLinks([&](std::size_t i) {
-        if (counts[i] > 1 && !fewer[i])
-          fewer[i] = searches_[i]->atMost(counts[i] - 1, options_.stop);
+        if (counts[i] > 1 && !fewer[i]) fewer[i] = searches_[i]->atMost(counts[i] - 1, isOver_);
       });
       std::size_t to = 0;
       for (std::size_t i = 1; i < links_.size(); ++i)
@@ -123,7 +122,7 @@ class SphereShares {
       for (std::size_t i = 0; i < links_.size(); ++i)
         if (i != to && fewer[i] && (!from || fewer[i]->reach < fewer[*from]->reach)) from = i;
       if (!from || !(fewer[*from]->reach < found_[to].reach)) return;
-      EnclosingSpheres more = searches_[to]->atMost(counts[to] + 1, options_.stop);
+      EnclosingSpheres more = searches_[to]->atMost(counts[to] + 1, isOver_);
       if (!(more.reach < found_[to].reach)) return;
       found_[to] = std::move(more);
       found_[*from] = std::move(*fewer[*from]);
@@ -141,13 +140,14 @@ class SphereShares {
       std::size_t worst = 0;
       for (std::size_t i = 1; i < links_.size(); ++i)
         if (found_[i].reach > found_[worst].reach) worst = i;
-      EnclosingSpheres again = searches_[worst]->atMost(counts[worst], options_.stop);
+      EnclosingSpheres again = searches_[worst]->atMost(counts[worst], isOver_);
       if (!(again.reach < found_[worst].reach)) return;
       found_[worst] = std::move(again);
     }
   }
 
   const SphereModelOptions& options_;
+  StopQuestion isOver_ = [this] { return options_.stop.stop_requested(); };
   std::vector<const Link*> links_;
   std::vector<std::unique_ptr<EnclosingSpheresSearch>> searches_;
   std::vector<EnclosingSpheres> found_;
@@ -207,7 +207,7 @@ std::vector<LinkSphereReport> judgeSphereModel(const Robot& robot, const SphereM
     if (!link.collision.empty()) links.push_back(&link);
   std::vector<LinkSphereReport> reports(links.size());
   detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
-    if (options.stop.stop_requested()) throw SearchStopped();
+    if (options.stop && options.stop()) throw SearchStopped();
     LinkSphereReport& report = reports[i];
     report.link = links[i]->name;
     const std::vector<PosedShape> body = bodyOf(*links[i]);

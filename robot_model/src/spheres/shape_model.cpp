@@ -26,19 +26,19 @@ class ShapeShares {
     found_.resize(links_.size());
     forLinks([&](std::size_t i) {
       searches_[i] = std::make_unique<EnclosingShapesSearch>(bodyOf(*links_[i]), options_.kind,
-                                                             options_.search, options_.stop);
+                                                             options_.search, isOver_);
     });
   }
 
   std::size_t linkCount() const { return links_.size(); }
 
   void findWithin(double excess) {
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, options_.stop); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, isOver_); });
   }
 
   void findAtMost(int shapes) {
     const std::vector<int> counts = countsFor(shapes);
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i], options_.stop); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i], isOver_); });
   }
 
   ShapeModel model() && {
@@ -51,7 +51,7 @@ class ShapeShares {
  private:
   void forLinks(const std::function<void(std::size_t)>& work) {
     detail::forEachIndex(links_.size(), options_.threads, [&](std::size_t i) {
-      if (options_.stop.stop_requested()) throw SearchStopped();
+      if (isOver_()) throw SearchStopped();
       work(i);
     });
   }
@@ -88,6 +88,7 @@ class ShapeShares {
   }
 
   const ShapeModelOptions& options_;
+  StopQuestion isOver_ = [this] { return options_.stop.stop_requested(); };
   std::vector<const Link*> links_;
   std::vector<std::unique_ptr<EnclosingShapesSearch>> searches_;
   std::vector<EnclosingShapes> found_;
@@ -165,7 +166,7 @@ std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeMod
     if (!link.collision.empty()) links.push_back(&link);
   std::vector<LinkSphereReport> reports(links.size());
   detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
-    if (options.stop.stop_requested()) throw SearchStopped();
+    if (options.stop && options.stop()) throw SearchStopped();
     LinkSphereReport& report = reports[i];
     report.link = links[i]->name;
     const std::vector<PosedShape> body = bodyOf(*links[i]);

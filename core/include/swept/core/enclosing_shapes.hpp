@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "swept/core/enclosing_spheres.hpp"
@@ -39,7 +38,7 @@ struct EnclosingShapesOptions {
 /// the shape that reaches farther keeps what the other does not contain. Each shape is measured to
 /// contain its pieces whole, rounding included.
 ///
-/// A `stop` that is requested ends a call soon, as for EnclosingSpheresSearch: SearchStopped.
+/// A `stop` that is true ends a call soon, as for EnclosingSpheresSearch: SearchStopped.
 ///
 /// One thread at a time may use a search.
 class EnclosingShapesSearch {
@@ -47,8 +46,7 @@ class EnclosingShapesSearch {
   /// Throws std::invalid_argument for a body without shapes, planes and half-spaces, and for
   /// options out of range.
   EnclosingShapesSearch(std::span<const PosedShape> body, EnclosingKind kind,
-                        const EnclosingShapesOptions& options = {},
-                        const std::stop_token& stop = {});
+                        const EnclosingShapesOptions& options = {}, const StopQuestion& stop = {});
   ~EnclosingShapesSearch();
   EnclosingShapesSearch(EnclosingShapesSearch&&) noexcept;
   EnclosingShapesSearch& operator=(EnclosingShapesSearch&&) noexcept;
@@ -60,10 +58,10 @@ class EnclosingShapesSearch {
   /// std::invalid_argument for less than one, as atMost().
   double reachFor(int count) const;
   /// At most `count` shapes, with a small reach.
-  EnclosingShapes atMost(int count, const std::stop_token& stop = {});
+  EnclosingShapes atMost(int count, const StopQuestion& stop = {});
   /// Few shapes. None reaches farther than `reach` (m) beyond the body, proven by shapesExcess(),
   /// if the pieces are small enough for it. Throws std::invalid_argument unless it is above 0.
-  EnclosingShapes within(double reach, const std::stop_token& stop = {});
+  EnclosingShapes within(double reach, const StopQuestion& stop = {});
 
  private:
   struct Data;

@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
-#include <stop_token>
 #include <vector>
 
 #include "swept/core/shapes.hpp"
@@ -14,7 +14,11 @@
 /// Few spheres that together contain a rigid body: for planners that check spheres alone.
 namespace swept {
 
-/// Thrown by work around a body once its std::stop_token was requested.
+/// Asked between the steps of long work; true ends it: SearchStopped. Empty: it is never ended. As
+/// std::stop_token::stop_requested, whose header would be a quarter of what this one needs.
+using StopQuestion = std::function<bool()>;
+
+/// Thrown by work around a body once its StopQuestion is answered with true.
 class SearchStopped : public std::runtime_error {
  public:
   SearchStopped();
@@ -46,10 +50,10 @@ struct OutsideSpheres {
 
 /// How closely the two bounds of OutsideSpheres must agree.
 struct OutsideSpheresOptions {
-  double tolerance = 1e-5;    ///< m
-  int mostSplits = 100000;    ///< of pieces of the body; then the bounds stay as they are
-  int samples = 20000;        ///< points of the surface for `surfaceShare`
-  std::stop_token stop = {};  ///< ends it, within some milliseconds: SearchStopped
+  double tolerance = 1e-5;  ///< m
+  int mostSplits = 100000;  ///< of pieces of the body; then the bounds stay as they are
+  int samples = 20000;      ///< points of the surface for `surfaceShare`
+  StopQuestion stop = {};   ///< ends it, within some milliseconds: SearchStopped
 };
 
 /// Judges spheres of any origin. The body is the union of its shapes: a closed mesh counts with its
@@ -84,7 +88,7 @@ struct SphereExcessOptions {
   double tolerance = 0.02;    ///< of `largest`, relative
   int mostDistances = 60000;  ///< for `largest`; then it stays as it is
   std::uint32_t seed = 1;     ///< of the samples
-  std::stop_token stop = {};  ///< ends it, within some milliseconds: SearchStopped
+  StopQuestion stop = {};     ///< ends it, within some milliseconds: SearchStopped
 };
 
 /// Measures spheres of any origin against a body. Throws std::invalid_argument as outsideSpheres,
@@ -120,8 +124,8 @@ struct EnclosingSpheresOptions {
 /// to where the reach is largest. In the end, pieces that two spheres share are divided. Each piece
 /// stays in one sphere, so the result is proven at any time, rounding included.
 ///
-/// A `stop` that is requested ends a call within some milliseconds: it throws SearchStopped. Only
-/// how the meshes of a body enclose space is found out to the end. The search is over then, as
+/// A call asks `stop` every few milliseconds, and throws SearchStopped if that is true. Only how
+/// the meshes of a body enclose space is found out to the end. The search is over then, as
 /// after any other exception within a call: later calls throw SearchStopped, too.
 ///
 /// One thread at a time may use a search.
@@ -131,7 +135,7 @@ class EnclosingSpheresSearch {
   /// options below 1 (`rounds`: 0).
   explicit EnclosingSpheresSearch(std::span<const PosedShape> body,
                                   const EnclosingSpheresOptions& options = {},
-                                  const std::stop_token& stop = {});
+                                  const StopQuestion& stop = {});
   ~EnclosingSpheresSearch();
   EnclosingSpheresSearch(EnclosingSpheresSearch&&) noexcept;
   EnclosingSpheresSearch& operator=(EnclosingSpheresSearch&&) noexcept;
@@ -142,10 +146,10 @@ class EnclosingSpheresSearch {
   /// the search begins at that result, which takes a fraction of the time. Asked again for the same
   /// number, it searches from nothing, too, once, and the better result counts. Throws
   /// std::invalid_argument for less than one.
-  EnclosingSpheres atMost(int count, const std::stop_token& stop = {});
+  EnclosingSpheres atMost(int count, const StopQuestion& stop = {});
   /// Few spheres that reach at most this (m) beyond the body, if the pieces are small enough for
   /// it: see EnclosingSpheres::reach. Throws std::invalid_argument unless it is above 0.
-  EnclosingSpheres within(double reach, const std::stop_token& stop = {});
+  EnclosingSpheres within(double reach, const StopQuestion& stop = {});
 
  private:
   struct Data;
