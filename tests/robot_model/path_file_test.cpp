@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"p.json", R"({"points": []})",
                "p.json: error: the path has the unknown key 'points'; allowed are robot, group, "
                "planner, tool, deviation, deviation_angle, seed, margin, margin_self, "
-               "margin_world, tolerance, clouds, joint_names, constraints, "
+               "margin_world, tolerance, clouds, clock, joint_names, constraints, "
                "lines, states, trajectory, segments, nothing_checked, links_without_geometry, "
                "warnings, inputs, model and proof"}));
 

@@ -159,12 +159,13 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenTrajectory{"t.json", "[]",
                          "t.json: error: a file with a trajectory must be an object"},
         BrokenTrajectory{"t.json", "{}", "t.json: error: trajectory is missing"},
-        BrokenTrajectory{"t.json", R"({"trajectory": {}, "state": []})",
-                         "t.json: error: the file has the unknown key 'state'; allowed are "
-                         "trajectory, robot, group, planner, seed, margin, margin_self, "
-                         "margin_world, tolerance, clouds, joint_names, constraints, states, "
-                         "segments, nothing_checked, links_without_geometry, warnings, inputs, "
-                         "model and proof"},
+        BrokenTrajectory{
+            "t.json", R"({"trajectory": {}, "state": []})",
+            "t.json: error: the file has the unknown key 'state'; allowed are "
+            "trajectory, robot, group, planner, seed, margin, margin_self, "
+            "margin_world, tolerance, clouds, joint_names, constraints, clock, states, "
+            "segments, nothing_checked, links_without_geometry, warnings, inputs, "
+            "model and proof"},
         BrokenTrajectory{"t.json", R"({"trajectory": []})",
                          "t.json: error: trajectory must be an object"},
         BrokenTrajectory{"t.json", R"({"trajectory": {"points": []}})",
