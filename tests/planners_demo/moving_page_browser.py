@@ -7,7 +7,7 @@ import picture_file
 from browser_page import ROOK, BrowserTest, main
 
 REACH = ["trajectory", ROOK, "models/trajectories/rook7_reach.csv", "--group", "arm",
-         "--scene", "models/scenes/conveyor.yaml"]
+         "--scene", "models/moving_scenes/conveyor.yaml"]
 # The crate of that scene: s, m, and rad about z.
 WAY = [(0, -2, 0), (4, 0, 0), (8, 2, math.pi / 3)]
 
