@@ -237,7 +237,7 @@ TEST_F(Paths, ClearancesOfMotionsAreProven) {
   const ob::MaximizeMinClearanceObjective atEnds(si);
   ob::ScopedState<> a(si->getStateSpace()), b(si->getStateSpace()), c(si->getStateSpace());
   int lower = 0, compared = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     a.random();
     b.random();
     if (!si->isValid(a.get()) || !si->isValid(b.get())) continue;
