@@ -3,28 +3,14 @@
 
 #include <stdexcept>
 
+#include "cover/endable_search.hpp"
 #include "cover/shape_fit.hpp"
 #include "cover/sphere_checks.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
-struct EnclosingShapesSearch::Data {
-  detail::ShapeFit fit;
-  bool isOver = false;  ///< a call ended by an exception, with pieces here and there
-
-  template <typename Question>
-  auto ask(const Question& question) {
-    requireWhole();
-    isOver = true;
-    auto answer = question(fit);
-    isOver = false;
-    return answer;
-  }
-  void requireWhole() const {
-    if (isOver) throw SearchStopped();
-  }
-};
+struct EnclosingShapesSearch::Data : detail::EndableSearch<detail::ShapeFit> {};
 
 EnclosingShapesSearch::EnclosingShapesSearch(std::span<const PosedShape> body, EnclosingKind kind,
                                              const EnclosingShapesOptions& options,
@@ -32,7 +18,7 @@ EnclosingShapesSearch::EnclosingShapesSearch(std::span<const PosedShape> body, E
   data_ = inDefaultEnvironment([&] {
     detail::requireSphereOption("pieces", options.pieces, 1.0);
     if (body.empty()) throw std::invalid_argument("a body without shapes needs none around it");
-    return std::make_unique<Data>(detail::ShapeFit(body, kind, options, stop));
+    return std::make_unique<Data>(Data{{detail::ShapeFit(body, kind, options, stop)}});
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "cover/endable_search.hpp"
 #include "cover/sphere_checks.hpp"
 #include "cover/sphere_fit.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -11,22 +12,7 @@ namespace swept {
 
 SearchStopped::SearchStopped() : std::runtime_error("stopped before it was done") {}
 
-struct EnclosingSpheresSearch::Data {
-  detail::SphereFit fit;
-  bool isOver = false;  ///< a call ended by an exception, with pieces here and there
-
-  template <typename Question>
-  auto ask(const Question& question) {
-    requireWhole();
-    isOver = true;
-    auto answer = question(fit);
-    isOver = false;
-    return answer;
-  }
-  void requireWhole() const {
-    if (isOver) throw SearchStopped();
-  }
-};
+struct EnclosingSpheresSearch::Data : detail::EndableSearch<detail::SphereFit> {};
 
 EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
                                                const EnclosingSpheresOptions& options,
@@ -36,7 +22,7 @@ EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
     detail::requireSphereOption("restarts", options.restarts, 1.0);
     detail::requireSphereOption("rounds", options.rounds, 0.0);
     if (body.empty()) throw std::invalid_argument("a body without shapes needs no spheres");
-    return std::make_unique<Data>(detail::SphereFit(body, options, stop));
+    return std::make_unique<Data>(Data{{detail::SphereFit(body, options, stop)}});
   });
 }
 
