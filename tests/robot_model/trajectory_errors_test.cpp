@@ -153,7 +153,7 @@ std::string jsonPoint(const std::string& time, const std::string& more = "") {
 INSTANTIATE_TEST_SUITE_P(
     Json, BrokenTrajectories,
     testing::Values(
-        BrokenTrajectory{"t.json", "",
+        BrokenTrajectory{"t.json", " ",
                          "t.json:1: error: malformed JSON: syntax error while parsing value - "
                          "unexpected end of input; expected '[', '{', or a literal"},
         BrokenTrajectory{"t.json", "[]",

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <csignal>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -96,7 +97,7 @@ TEST(SoakProgram, BadInputIsNamed) {
       {{"--states", "0", "--motions", "0"}, "0 and 0: there is nothing to check"},
       {{"--threads", "0"}, "--threads: Value 0 not in range 1 to 1024"},
       {{"--updates", "x"}, "--updates: Value x not in range 0 to 100000000000"},
-      {{"--growth", "-2"}, "--growth: Value -2 not in range 0.000000 to 1000000.000000"},
+      {{"--growth", "-2"}, "--growth: Value -2 not in range 0"},
       {{"--robot", "none.urdf", "--group", "arm"}, "--robot: File does not exist: none.urdf"},
       {{"--robot", kRobot}, "--robot requires --group"},
       {{"--margin", "0.1"}, "--margin requires --robot"},
@@ -111,7 +112,9 @@ TEST(SoakProgram, BadInputIsNamed) {
   };
   for (const auto& [words, message] : all) {
     const Program program(words);
-    const std::string said = program.read(false);
+    // CLI11 writes a range as "0 to 1", and since 2.4 as "[0 - 1]".
+    const std::string said = std::regex_replace(
+        program.read(false), std::regex(R"(range \[(\S+) - (\S+)\])"), "range $1 to $2");
     EXPECT_EQ(program.wait(), 3) << said;
     EXPECT_THAT(said, HasSubstr(message));
   }
