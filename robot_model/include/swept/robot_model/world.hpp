@@ -77,8 +77,8 @@ class World {
   void replace(WorldBody body);
   /// Replaces it by a body of one shape. Throws likewise.
   void replace(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape);
-  /// Removes a body or moving obstacle. Returns false if nothing has this name.
-  /// Either kind. False: nothing has this name.
+  /// Removes the body or the moving obstacle of this name. Returns false if nothing
+  /// has it.
   bool remove(std::string_view name);
 
   ///@{

@@ -32,9 +32,9 @@ struct PageBody {
   double opacity = 1.0;
 };
 
-/// Links with collision geometry, attached bodies, bodies of the world, which point into `world`
-/// where they move, in this order. A null
-/// `checker` means no rules and no attached bodies. Null `visuals` mean no colours.
+/// Links with collision geometry, attached bodies, bodies of the world, in this order. Those that
+/// move point into `world`. A null `checker` means no rules and no attached bodies. Null `visuals`
+/// mean no colours.
 std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker,
                                  const VisualModel* visuals);
 
