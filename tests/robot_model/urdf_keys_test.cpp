@@ -167,7 +167,8 @@ std::vector<test::KeyCase> ofJoints(const UrdfText& urdf) {
   swapped.replace(swapped.find("<child link=\"b\"/>"), 17, "<child link=\"c\"/>");
   swapped.replace(swapped.rfind("<parent link=\"b\"/><child link=\"c\"/>"), 35,
                   "<parent link=\"c\"/><child link=\"b\"/>");
-  for (const std::string key : {"acceleration", "deceleration", "jerk", "damping", "friction"})
+  for (const std::string key : {"acceleration", "deceleration", "jerk", "damping", "friction",
+                                "command_effort", "current", "gear_velocity"})
     cases.push_back(urdf.changed("joint/limit " + key, limit, limit + " " + key + "=\"5\""));
   cases.push_back(urdf.changed("joint/limit effort", "effort=\"1\"", "effort=\"7\""));
   cases.push_back(urdf.changed("joint/limit velocity", "velocity=\"1\"", "velocity=\"7\""));

@@ -87,10 +87,11 @@ void UrdfJointReader::readLimit(Element& joint, JointType type, const std::strin
       xml_.fail(joint, owner + " has no <limit>; revolute and prismatic joints need one");
     return;
   }
-  refuseUnknownAttributes(*limit,
-                          {"lower", "upper", "effort", "velocity", "acceleration", "deceleration",
-                           "jerk", "damping", "friction"},
-                          owner);
+  refuseUnknownAttributes(
+      *limit,
+      {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk", "damping",
+       "friction", "command_effort", "current", "gear_velocity"},
+      owner);
   const double lower = xml_.number(*limit, "lower", owner, 0.0);
   const double upper = xml_.number(*limit, "upper", owner, 0.0);
   setNumber(*limit, "effort", xml_.number(*limit, "effort", owner, 0.0));
