@@ -109,6 +109,9 @@ std::vector<test::KeyCase> ofLinks(const UrdfText& urdf) {
   for (const std::string key :
        {"inertial", "contact", "gravity", "self_collide", "sensor", "origin"})
     cases.push_back(urdf.added("link/" + key, link, "<" + key + " xyz='1 2 3'>1</" + key + ">"));
+  cases.push_back(
+      urdf.added("link/self_filter", link,
+                 "<self_filter><geometry><box size='9 9 9'/></geometry></self_filter>"));
   return cases;
 }
 

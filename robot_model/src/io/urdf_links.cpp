@@ -24,7 +24,9 @@ UrdfOutline::Link UrdfLinkReader::read(Element& element) {
   const std::string owner = "link '" + link.name + "'";
   link.hasVisual = isShown(element);
   reduce(element, {"collision"},
-         {"inertial", "visual", "contact", "gravity", "self_collide", "sensor", "origin"}, owner);
+         {"inertial", "visual", "contact", "gravity", "self_collide", "self_filter", "sensor",
+          "origin"},
+         owner);
   for (Element* c = element.FirstChildElement("collision"); c != nullptr;
        c = c->NextSiblingElement("collision")) {
     link.collisions.push_back(readCollision(*c, owner));
