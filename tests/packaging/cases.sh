@@ -319,7 +319,7 @@ case_windows_options() {
 
 # What .ci/nightly refuses before it installs anything, and what it would install where.
 case_ci_options() {
-  local all='error: usage: .ci/nightly WHAT, where WHAT is one of: asan clang fuzz tsan'
+  local all='error: usage: .ci/nightly WHAT, where WHAT is one of: arm asan clang fuzz tsan'
   refuses "$all" "$root/.ci/nightly"
   refuses "$all" "$root/.ci/nightly" msan
   refuses "$all" "$root/.ci/nightly" asan tsan

@@ -111,8 +111,12 @@ def check_names(facts, recipe):
             yield f"takes {src}/{pattern}, which is not there"
 
 
-def check_versions(facts, references, installed_version):
-    """The lowest versions are those that the tests run with."""
+def numbers(version):
+    return [int(number) for number in version.split(".")]
+
+
+def check_versions(facts, references, installed_versions):
+    """The lowest versions are those of Debian 12, and the ranges have those of Debian 13."""
     listed = (facts.root / ".ci/apt-packages.txt").read_text(encoding="utf-8").split("\n")
     for reference in references:
         name, _, versions = reference.partition("/")
@@ -120,25 +124,29 @@ def check_versions(facts, references, installed_version):
         if debian not in listed:
             yield f"{name} is {debian} in Debian, which .ci/apt-packages.txt does not list"
             continue
-        lowest = re.fullmatch(r"\[>=(\d+(?:\.\d+)*) <\d+\]", versions)
-        if not lowest:
+        limits = re.fullmatch(r"\[>=(\d+(?:\.\d+)*) <(\d+)\]", versions)
+        if not limits:
             yield f"{reference} is no range [>=LOWEST <NEXT]"
             continue
-        there = installed_version(debian)
-        if there and not f"{there}.".startswith(f"{lowest.group(1)}."):
-            yield f"{reference}: the tests run with {there}"
+        lowest, following = limits.groups()
+        for release, there in installed_versions(debian).items():
+            if release == 12 and not f"{there}.".startswith(f"{lowest}."):
+                yield f"{reference}: the tests run with {there}"
+            if not numbers(lowest) <= numbers(there) < numbers(following):
+                yield f"{reference} has not Debian {release}'s {there}"
 
 
-def version_on_debian_12(package):
-    """The version of a package that is installed; None if that says nothing."""
+def versions_here(package):
+    """The version of a package that is installed, by the release of Debian that this is; nothing elsewhere."""
     try:
         release = Path("/etc/os-release").read_text(encoding="utf-8")
         said = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], text=True, capture_output=True, check=True)
     except (OSError, subprocess.CalledProcessError):
-        return None
-    if not {"ID=debian", 'VERSION_ID="12"'} <= set(release.split("\n")):
-        return None
-    return re.match(r"(?:\d+:)?(\d+(?:\.\d+)*)", said.stdout).group(1)
+        return {}
+    for number in (12, 13):
+        if {"ID=debian", f'VERSION_ID="{number}"'} <= set(release.split("\n")):
+            return {number: re.match(r"(?:\d+:)?(\d+(?:\.\d+)*)", said.stdout).group(1)}
+    return {}
 
 
 def check_test(root, path, options):
@@ -164,7 +172,7 @@ def check_test(root, path, options):
             yield f"{argument} is not there"
 
 
-def check(root, installed_version=version_on_debian_12):
+def check(root, installed_versions=versions_here):
     """One line for each fault."""
     facts = CMakeFacts(root)
     path = Path(root) / "tests/packaging/conan/conanfile.py"
@@ -180,7 +188,7 @@ def check(root, installed_version=version_on_debian_12):
             yield from (f"with {list(on)}: {fault}" for fault in check_parts(facts, recipe, {"core", *on}))
     whole = answers_of(recipe_class, path, {part: True for part in parts})
     yield from check_names(facts, whole)
-    yield from check_versions(facts, whole.required, installed_version)
+    yield from check_versions(facts, whole.required, installed_versions)
     if not answers_of(recipe_class, path, {part: True for part in parts}, os="Windows").refused:
         yield "is accepted on Windows"
     for robot_model, ompl_bridge in ((False, False), (True, False), (True, True)):

@@ -10,11 +10,13 @@ namespace {
 
 #if defined(SWEPT_MPIEXEC)
 
-/// `ranks` processes; as root and on fewer processors too, which Open MPI refuses unless told so.
+/// `ranks` processes; as root and on fewer processors too, which Open MPI refuses unless told so:
+/// version 4 by the third name, version 5 by the fourth.
 Outcome runRanks(int ranks, const Words& arguments) {
   std::string line =
       "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-      "OMPI_MCA_rmaps_base_oversubscribe=1; '" SWEPT_MPIEXEC "' -n " +
+      "OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe; "
+      "'" SWEPT_MPIEXEC "' -n " +
       std::to_string(ranks) + " '" SWEPT_MPI_PROGRAM "'";
   for (const std::string& word : arguments) line += " '" + word + "'";
   return runShell(line);

@@ -328,7 +328,6 @@ TEST(Replay, BrokenFilesAreNamedWithTheirLine) {
   const TemporaryFolder folder;
   const std::pair<std::string, std::string> files[] = {
       {"{\n\"cases\": [\n}", ":3: error: malformed JSON: syntax error"},
-      {"", ":1: error: malformed JSON: syntax error"},
       {"{\"cases\": [1e999]}", ": error: malformed JSON: number overflow"},
       {"[]", ": error: the file must be an object with the key 'cases'\n"},
       {"{}", ": error: cases is missing\n"},
@@ -343,6 +342,16 @@ TEST(Replay, BrokenFilesAreNamedWithTheirLine) {
     EXPECT_EQ(run.out, "") << text;
     EXPECT_THAT(run.err, testing::StartsWith(path + message)) << text;
   }
+  // nlohmann-json 3.11.2 and 3.11.3.
+  const std::string empty = folder.write("empty.json", "");
+  const std::string malformed = empty + ":1: error: malformed JSON: ";
+  const Outcome nothing = runSwept({"replay", empty});
+  EXPECT_EQ(nothing.exitCode, 3);
+  EXPECT_EQ(nothing.out, "");
+  EXPECT_THAT(
+      nothing.err,
+      testing::AnyOf(testing::StartsWith(malformed + "syntax error"),
+                     testing::StartsWith(malformed + "attempting to parse an empty input")));
   EXPECT_EQ(runSwept({"replay", folder.path("none")}).err,
             folder.path("none") + ": error: file not found\n");
   EXPECT_EQ(runSwept({"replay", folder.path()}).err,

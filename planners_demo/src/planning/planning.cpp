@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -31,12 +32,25 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-class StderrMessages : public ompl::msg::OutputHandler {
+/// What planners say. When one of its threads fails, CForest of OMPL 1.6 says so and no more: to
+/// its caller it has found no path.
+class PlannerMessages : public ompl::msg::OutputHandler {
  public:
+  bool toStderr = false;
+  std::string failure;  ///< of the last thread that failed
+
+  /// OMPL calls this one message at a time.
   void log(const std::string& text, ompl::msg::LogLevel, const char*, int) override {
-    printMessage("ompl: " + foreignText(text));
+    if (toStderr) printMessage("ompl: " + foreignText(text));
+    const std::string_view front = "Exception thrown during CForest::solve: ";
+    if (text.starts_with(front)) failure = text.substr(front.size());
   }
 };
+
+PlannerMessages& plannerMessages() {
+  static PlannerMessages messages;
+  return messages;
+}
 
 /// The ends a planner can use: the start and the goals that are free.
 struct Ends {
@@ -220,6 +234,7 @@ double simplify(og::SimpleSetup& setup, const PlanRequest& request) {
 
 PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequest& request) {
   PlanOutcome outcome;
+  plannerMessages().failure.clear();
   const bool copies = request.threads > 1 && !setThreads(*setup.getPlanner(), request.threads);
   const auto begin = std::chrono::steady_clock::now();
   const ob::PlannerStatus status =
@@ -234,6 +249,9 @@ PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequ
   outcome.certified = validator->getValidMotionCount();
   outcome.refused = validator->getInvalidMotionCount();
   if (!exact) {
+    const std::string& failure = plannerMessages().failure;
+    if (!failure.empty())
+      throw UsageError("planner " + request.planner + ": " + foreignText(failure));
     outcome.failure =
         "no path after " + secondsText(outcome.planningTime) + " (" + outcome.status + ")";
     return outcome;
@@ -303,11 +321,8 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
 }
 
 void routePlannerMessages(bool toStderr) {
-  static StderrMessages messages;
-  if (toStderr)
-    ompl::msg::useOutputHandler(&messages);
-  else
-    ompl::msg::noOutputHandler();
+  plannerMessages().toStderr = toStderr;
+  ompl::msg::useOutputHandler(&plannerMessages());
 }
 
 }  // namespace swept

@@ -13,11 +13,12 @@ from conan.tools.files import copy, load, rmdir
 
 required_conan_version = ">=2.4"
 
-# What each component needs beyond those below it. The lowest versions are those of Debian 12, with which the tests run.
+# What each component needs beyond those below it. The lowest versions are those of Debian 12, and the
+# ranges end after those of Debian 13: with both, the tests run.
 NEEDS = {
     "core": ["eigen/[>=3.4.0 <4]", "libccd/[>=2.1 <3]", "highway/[>=1.0.3 <2]"],
-    "robot_model": ["urdfdom/[>=3.0.1 <4]", "assimp/[>=5.2.5 <6]", "yaml-cpp/[>=0.7.0 <1]",
-                    "nlohmann_json/[>=3.11.2 <4]", "tinyxml2/[>=9.0.0 <10]", "onetbb/[>=2021.8.0 <2022]"],
+    "robot_model": ["urdfdom/[>=3.0.1 <5]", "assimp/[>=5.2.5 <6]", "yaml-cpp/[>=0.7.0 <1]",
+                    "nlohmann_json/[>=3.11.2 <4]", "tinyxml2/[>=9.0.0 <12]", "onetbb/[>=2021.8.0 <2023]"],
     "proofs": ["openssl/[>=3.0 <4]"],
     "ompl_bridge": ["ompl/[>=1.5.2 <2]"],
     "program": ["cli11/[>=2.1.2 <3]", "zlib/[>=1.2.13 <2]"],

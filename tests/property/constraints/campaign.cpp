@@ -129,8 +129,8 @@ void displace(const Case& of, Random& random, std::vector<Real>& q) {
 
 class CaseJudge {
  public:
-  CaseJudge(const Case& of, const swept::Checker& checker, std::size_t samples, Random& random)
-      : of_(of), checker_(checker), most_(samples), random_(random) {}
+  CaseJudge(const Case& of, std::size_t samples, Random& random)
+      : of_(of), most_(samples), random_(random) {}
 
   /// Of what is shown of a motion that is not Free.
   std::string faultOfShown(CampaignReport& report) {
@@ -205,7 +205,6 @@ class CaseJudge {
   }
 
   const Case& of_;
-  const swept::Checker& checker_;
   const std::size_t most_;
   Random& random_;
 };
@@ -260,7 +259,7 @@ std::string judge(const Case& of, Random& random, const CampaignOptions& campaig
   if (of.curve) count(answer.verdict, report.curves);
   if (isRelative(of.constraint)) count(answer.verdict, report.relative);
   count(answer.verdict, report.kinds[static_cast<std::size_t>(of.kind)]);
-  CaseJudge caseJudge(of, checker, campaign.samples, random);
+  CaseJudge caseJudge(of, campaign.samples, random);
   std::string fault = caseJudge.fault(answer, report);
   const auto shown =
       campaign.shows ? campaign.shows(of, checker, orderOf(of, checker)) : std::optional<bool>();

@@ -54,7 +54,7 @@ TEST_F(TaskPages, HaveAPhaseForEachAndSharedShapesOnce) {
   EXPECT_EQ(data["phases"][1]["end"], 4.0);
   // The cube is in both phases, and is as large as the block.
   EXPECT_EQ(data["phases"][0]["data"]["geometries"], nlohmann::json({0, 0}));
-  EXPECT_EQ(data["phases"][1]["data"]["geometries"], nlohmann::json({0}));
+  EXPECT_EQ(data["phases"][1]["data"]["geometries"], nlohmann::json::array({0}));
   EXPECT_EQ(data["phases"][0]["data"]["bodies"].size(),
             data["phases"][1]["data"]["bodies"].size() + 1);
 }

@@ -201,7 +201,7 @@ TEST(TrajectoryPageTest, LimitsAndWhereTheyAreLeft) {
   EXPECT_EQ(own["limits"]["lower"], json({-3.0}));
   EXPECT_EQ(own["limits"]["upper"], json({3.0}));
   EXPECT_EQ(own["limits"]["velocity"], json({1.5}));
-  EXPECT_EQ(own["limits"]["acceleration"], json({nullptr}));
+  EXPECT_EQ(own["limits"]["acceleration"], json::array({nullptr}));
   EXPECT_EQ(own["limits"]["jerk"], json({100.0}));
   ASSERT_EQ(own["violations"].size(), 2U);
   EXPECT_EQ(own["violations"][0]["kind"], "position");
