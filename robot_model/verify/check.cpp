@@ -43,8 +43,8 @@ std::vector<double> readState(const Json& json, const Model& model, const std::s
 
 class ProofCheck {
  public:
-  ProofCheck(const Json& path, const Json& modelJson)
-      : path_(path), proof_(at(path, "proof", "path")) {
+  ProofCheck(const Json& path, const Json& modelJson, const Pause& pause)
+      : path_(path), proof_(at(path, "proof", "path")), pause_(pause) {
     requireSameModel(proof_, modelJson);
     model_ = readModel(modelJson);
     requireSameClaims();
@@ -201,6 +201,7 @@ class ProofCheck {
     const Motion motion = motionOf(i);
     const Json& proofs = readList(segment, "pairs", where);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      if (pause_) pause_();
       const std::string place = where + ", " + nameOf(pairs_[k]);
       const Body& a = model_.bodies[static_cast<std::size_t>(pairs_[k].a)];
       const Body& b = model_.bodies[static_cast<std::size_t>(pairs_[k].b)];
@@ -225,6 +226,7 @@ class ProofCheck {
 
   const Json& path_;
   const Json& proof_;
+  const Pause& pause_;
   Model model_;
   std::vector<std::vector<double>> states_;  ///< of a path that is no trajectory
   std::vector<Point> points_;                ///< of a trajectory
@@ -285,9 +287,9 @@ std::string pairDigest(Json pair) {
   return digestOf(pair.dump()).substr(0, 16);
 }
 
-Summary checkProof(const Json& path, const Json& model) {
+Summary checkProof(const Json& path, const Json& model, const Pause& pause) {
   Summary summary;
-  inDefaultEnvironment([&] { summary = ProofCheck(path, model).run(); });
+  inDefaultEnvironment([&] { summary = ProofCheck(path, model, pause).run(); });
   return summary;
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "intervals.hpp"
 #include "model.hpp"
 
 namespace swept::verify {
+
+/// Called between two pairs of bodies; what it throws ends the check. Empty: nothing is called.
+using Pause = std::function<void()>;
 
 /// Names of the parts of `model`, with a digest of each: `joints`, `bodies` and, together, `rules`
 /// (everything else).
@@ -25,6 +29,6 @@ void requireSameModel(const Json& proof, const Json& model);
 
 /// Checks the proof of a path file against a model of its robot and world. Throws Refusal, which
 /// names the place, at the first error.
-Summary checkProof(const Json& path, const Json& model);
+Summary checkProof(const Json& path, const Json& model, const Pause& pause = {});
 
 }  // namespace swept::verify

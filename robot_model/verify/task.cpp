@@ -158,7 +158,7 @@ void requireSameState(const Phase& last, const Phase& next) {
 
 }  // namespace
 
-std::vector<PhaseSummary> checkTask(const Json& task) {
+std::vector<PhaseSummary> checkTask(const Json& task, const Pause& pause) {
   std::vector<PhaseSummary> summaries;
   inDefaultEnvironment([&] {
     requireExactly(task, {"robot", "phases", "digest"}, "task");
@@ -170,7 +170,7 @@ std::vector<PhaseSummary> checkTask(const Json& task) {
       Phase& phase = phases[i];
       PhaseSummary summary{.name = phase.name(), .group = {}, .changes = {}, .proof = {}};
       try {
-        summary.proof = checkProof(phase.path(), phase.modelJson());
+        summary.proof = checkProof(phase.path(), phase.modelJson(), pause);
       } catch (const Refusal& refusal) {
         throw Refusal(phase.where() + ", " + refusal.what());
       }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "check.hpp"
 #include "intervals.hpp"
 #include "model.hpp"
 
@@ -31,7 +32,7 @@ struct PhaseSummary {
 ///   sensed is in the world, and may be any other than before.
 ///
 /// Throws Refusal, which begins with the phase, at the first error.
-std::vector<PhaseSummary> checkTask(const Json& task);
+std::vector<PhaseSummary> checkTask(const Json& task, const Pause& pause = {});
 
 /// rad. By how much an angle without limits may differ between two phases, whole turns apart.
 constexpr double kTurnedBy = 1e-12;

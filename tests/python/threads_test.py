@@ -55,7 +55,7 @@ def test_others_run_while_a_query_runs(checker, states):
 
 
 INTERRUPTED = """
-import signal, sys, threading, time, numpy as np, swept
+import signal, sys, tempfile, threading, time, numpy as np, swept
 robot = swept.Robot.load("models/robots/rook7/rook7.urdf")
 checker = swept.Checker(robot, "arm", swept.World.load("models/scenes/narrow_slot.yaml"))
 home, ready = checker.named_state("home"), checker.named_state("ready")
@@ -68,7 +68,18 @@ def late():
         trajectory = swept.Trajectory(arms.group(arm).variable_names, 0.2 * np.arange(1000), path)
         curves.append(swept.ScheduledCurve(trajectory))
     swept.certify_delays(both, curves, 0, latest=150.0, resolution=1e-6)
-work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seconds=120),
+folder = tempfile.TemporaryDirectory()
+def wandering(count):
+    path = home + 0.02 * np.random.default_rng(2).uniform(-1, 1, (count, 7))
+    return swept.Trajectory(checker.group.variable_names, 0.2 * np.arange(count), path)
+if sys.argv[1] == "verify":
+    swept.write_trajectory_proof(folder.name + "/proof.json", checker, wandering(3000))
+work = {"task": lambda: swept.write_task(
+            folder.name + "/task.json", [swept.TaskPhase("wander", checker, wandering(500))] * 60),
+        "trajectory": lambda: swept.write_trajectory_proof(folder.name + "/some.json", checker, wandering(8000)),
+        "proof": lambda: swept.write_proof(folder.name + "/path.json", checker, wandering(8000).positions),
+        "verify": lambda: swept.verify(folder.name + "/proof.json"),
+        "plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seconds=120),
         "states": lambda: checker.check_states(many, threads=1),
         "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
         "path": lambda: swept.certify_path(checker, many, threads=1),
@@ -93,7 +104,7 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "line", "delays",
-                                  "spheres", "boxes", "judge"])
+                                  "spheres", "boxes", "judge", "task", "trajectory", "proof", "verify"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr

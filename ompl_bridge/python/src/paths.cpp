@@ -94,32 +94,37 @@ PathClearance clearanceOf(const CheckerHandle& checker, const py::object& path, 
 }
 
 void write(const std::filesystem::path& file, const CheckerHandle& checker, const py::object& path,
-           const PathCertificate* certificate) {
+           const PathCertificate* certificate, const Token& cancel) {
   const Table states = readTable(path, "path", checker.dimension());
-  const PathCertificate own = certificate != nullptr
-                                  ? PathCertificate()
-                                  : certifyTable(checker.checker(), states, true, 0, Watch({}, {}));
-  const py::gil_scoped_release others;
-  requireWritten(writeProof(file, checker.checker(), states.list(),
-                            certificate != nullptr ? *certificate : own));
+  const PathCertificate own =
+      certificate != nullptr ? PathCertificate()
+                             : certifyTable(checker.checker(), states, true, 0, Watch({}, cancel));
+  requireWritten(watched(cancel, [&](const std::stop_token& stop) {
+    return writeProof(file, checker.checker(), states.list(),
+                      certificate != nullptr ? *certificate : own, {}, stop);
+  }));
 }
 
 void writeOfTrajectory(const std::filesystem::path& file, const CheckerHandle& checker,
                        const JointTrajectory& trajectory, const TrajectoryCertificate* certificate,
-                       double clock) {
-  const py::gil_scoped_release others;
-  if (certificate != nullptr && certificate->world && certificate->self)
-    return requireWritten(
-        writeTrajectoryProof(file, checker.checker(), trajectory, *certificate, {}, clock));
-  Workspace workspace(checker.checker());
-  const TrajectoryCertificate own = checker.checker().certifyTrajectory(
-      controllerCurve(trajectory), workspace, {.clock = clock, .limits = {}, .clearances = true});
-  requireWritten(writeTrajectoryProof(file, checker.checker(), trajectory, own, {}, clock));
+                       double clock, const Token& cancel) {
+  const Checker& of = checker.checker();
+  requireWritten(watched(cancel, [&](const std::stop_token& stop) {
+    if (certificate != nullptr && certificate->world && certificate->self)
+      return writeTrajectoryProof(file, of, trajectory, *certificate, {}, clock, stop);
+    Workspace workspace(of);
+    const TrajectoryCertificate own = of.certifyTrajectory(
+        controllerCurve(trajectory), workspace, {.clock = clock, .limits = {}, .clearances = true});
+    return writeTrajectoryProof(file, of, trajectory, own, {}, clock, stop);
+  }));
 }
 
-CheckedProof verify(const std::filesystem::path& file, const CheckerHandle* checker) {
-  const py::gil_scoped_release others;
-  return checker != nullptr ? verifyProof(file, checker->checker()) : verifyProof(file);
+CheckedProof verify(const std::filesystem::path& file, const CheckerHandle* checker,
+                    const Token& cancel) {
+  return watched(cancel, [&](const std::stop_token& stop) {
+    return checker != nullptr ? verifyProof(file, checker->checker(), stop)
+                              : verifyProof(file, stop);
+  });
 }
 
 void bindProofs(py::module_& module) {
@@ -149,22 +154,24 @@ void bindProofs(py::module_& module) {
 
   module.def(
       "write_proof", &write, py::arg("file"), py::arg("checker"), py::arg("path"),
-      py::arg("certificate") = nullptr,
+      py::arg("certificate") = nullptr, py::kw_only(), py::arg("cancel") = py::none(),
       "Writes a path (m, n) with planes that separate all pairs of bodies, the robot and the "
       "world to a .json file, which can be\nchecked without any other: `verify`, or `swept "
       "verify`. `certificate`: of certify_path, for the same path. Raises\nUsageError for a "
-      "path that is not FREE, or for which no proof was found.");
+      "path that is not FREE, or for which no proof was found. Ctrl-C and `cancel`, a "
+      "CancellationToken, end it, and there is no file:\nKeyboardInterrupt, Cancelled.");
   module.def("write_trajectory_proof", &writeOfTrajectory, py::arg("file"), py::arg("checker"),
              py::arg("trajectory"), py::arg("certificate") = nullptr, py::kw_only(),
-             py::arg("clock") = 0.0,
+             py::arg("clock") = 0.0, py::arg("cancel") = py::none(),
              "The same for the curve of a Trajectory. `certificate`: of certify_trajectory with "
              "`clearances`, for the same trajectory and `clock`: s, what\nmoving obstacles' clock "
              "shows at time 0. They are in the file, with their waypoints.");
-  module.def("verify", &verify, py::arg("file"), py::arg("checker") = nullptr,
+  module.def("verify", &verify, py::arg("file"), py::arg("checker") = nullptr, py::kw_only(),
+             py::arg("cancel") = py::none(),
              "CheckedProof of a file, by a checker that shares no code with what found the proof. "
              "`checker`: also compares robot, world,\nrules and constraints with its own. Raises "
              "InputError for a "
-             "file that is no path with a proof.");
+             "file that is no path with a proof. `cancel` as of write_proof.");
 }
 
 }  // namespace

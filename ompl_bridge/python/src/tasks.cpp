@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "binding.hpp"
 #include "enums.hpp"
 #include "paths.hpp"
+#include "watch.hpp"
 
 namespace py = pybind11;
 
@@ -87,18 +89,20 @@ void bindPhase(py::module_& module) {
   addImmutableCopies(type);
 }
 
-void write(const std::filesystem::path& file, const std::vector<PhaseHandle>& phases) {
-  const py::gil_scoped_release others;
-  std::vector<TaskPhase> all;
-  for (const PhaseHandle& one : phases) {
-    all.push_back(one.phase);
-    if (one.isProven) continue;
-    const Checker& checker = *one.phase.checker;
-    Workspace workspace(checker);
-    all.back().certificate = checker.certifyTrajectory(
-        controllerCurve(one.phase.trajectory), workspace, {.limits = {}, .clearances = true});
-  }
-  requireWritten(writeTask(file, all));
+void write(const std::filesystem::path& file, const std::vector<PhaseHandle>& phases,
+           const Token& cancel) {
+  requireWritten(watched(cancel, [&](const std::stop_token& stop) {
+    std::vector<TaskPhase> all;
+    for (const PhaseHandle& one : phases) {
+      all.push_back(one.phase);
+      if (one.isProven || stop.stop_requested()) continue;  // writeTask() looks at it
+      const Checker& checker = *one.phase.checker;
+      Workspace workspace(checker);
+      all.back().certificate = checker.certifyTrajectory(
+          controllerCurve(one.phase.trajectory), workspace, {.limits = {}, .clearances = true});
+    }
+    return writeTask(file, all, stop);
+  }));
 }
 
 void bindChecked(py::module_& module) {
@@ -156,23 +160,26 @@ void bindTasks(py::module_& module) {
           py::arg("seconds"),
           "The same with all times later by `seconds`. Raises ArgumentError for a time before 0.");
   module.def(
-      "write_task", &write, py::arg("file"), py::arg("phases"),
+      "write_task", &write, py::arg("file"), py::arg("phases"), py::kw_only(),
+      py::arg("cancel") = py::none(),
       "Writes a task, a list of TaskPhase one after the other, with the proof of each as "
       "write_trajectory_proof to one .json file, which can be\nchecked without any other: "
       "`verify_task`, or `swept verify`. The file is written completely or not at all. Raises "
       "UsageError for phases\nthat do not join, with the difference, for no phase, and for one "
-      "that is not FREE or for which no proof was found.");
+      "that is not FREE or for which no proof was found.\nCtrl-C and `cancel`, a "
+      "CancellationToken, end it, and there is no file: "
+      "KeyboardInterrupt, Cancelled.");
   module.def(
       "verify_task",
-      [](const std::filesystem::path& file) {
-        const py::gil_scoped_release others;
-        return verifyTask(file);
+      [](const std::filesystem::path& file, const Token& cancel) {
+        return watched(cancel, [&](const std::stop_token& stop) { return verifyTask(file, stop); });
       },
-      py::arg("file"),
+      py::arg("file"), py::kw_only(), py::arg("cancel") = py::none(),
       "CheckedTask of a file of write_task, by a checker that shares no code with what found the "
       "proofs: whether each holds, and whether the\nphases join. All have the same robot; each "
       "begins where, when and as fast as the one before ends; each body is as before, but for the\n"
-      "changes that the file states. Raises InputError for a file that is no task.");
+      "changes that the file states. Raises InputError for a file that is no task. `cancel` as of "
+      "write_task.");
   module.def(
       "read_task",
       [](const std::filesystem::path& file) {

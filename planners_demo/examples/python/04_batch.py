@@ -25,6 +25,6 @@ print(np.count_nonzero(verdicts == Verdict.FREE), "of", len(states), "states are
 motions = checker.certify_motions(states[:-1], states[1:])
 print(np.count_nonzero(motions.verdicts == Verdict.FREE), "of", len(motions), "motions between them are")
 
-same = all(checker.check_state(q) == verdict for q, verdict in zip(states, verdicts))
+same = all(checker.check_state(states[i]) == verdict for i, verdict in enumerate(verdicts))
 same &= all(checker.certify_motion(states[i], states[i + 1]).verdict == v for i, v in enumerate(motions.verdicts))
 sys.exit(0 if same and (motions.verdicts == Verdict.FREE).any() else 1)

@@ -26,11 +26,13 @@ if plan.path is None:
     sys.exit(1)
 
 # What is proven, sampled: how far what points up at the start tilts.
-tilts = [
-    math.acos(min(1.0, float((robot.link_pose("arm", "hand", checker.interpolate(a, b, t))[:3, :3] @ level[2, :3])[2])))
-    for a, b in zip(plan.path, plan.path[1:])
+path = plan.path
+poses = [
+    robot.link_pose("arm", "hand", checker.interpolate(path[i], path[i + 1], t))
+    for i in range(len(path) - 1)
     for t in np.linspace(0.0, 1.0, 100)
 ]
+tilts = [math.acos(min(1.0, float((pose[:3, :3] @ level[2, :3])[2]))) for pose in poses]
 print(f"the hand tilts by {max(tilts):.4f} rad, allowed are {most:.4f}")
 
 # A state that does not keep it, and the nearest that does.

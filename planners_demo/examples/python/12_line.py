@@ -30,8 +30,8 @@ print(f"turned by {turning.turn:.3f} rad: {len(turning.path)} way points, {turni
 # Sampled, the tool is no farther off than was proven.
 below = line.start_pose[:2, 3]
 farthest = max(
-    float(np.linalg.norm(planner.pose(checker.interpolate(a, b, t))[:2, 3] - below))
-    for a, b in zip(line.path, line.path[1:])
+    float(np.linalg.norm(planner.pose(checker.interpolate(line.path[i], line.path[i + 1], t))[:2, 3] - below))
+    for i in range(len(line.path) - 1)
     for t in np.linspace(0.0, 1.0, 100)
 )
 timed = swept.proven_trajectory(checker, line.path, swept.RateLimits(checker, acceleration=3.0))

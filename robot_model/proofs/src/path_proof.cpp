@@ -55,10 +55,10 @@ WrittenProof writtenProof(const std::filesystem::path& file, const Checker& chec
 
 WrittenProof writeProof(const std::filesystem::path& file, const Checker& checker,
                         const ConfigurationList& states, const PathCertificate& certificate,
-                        const std::vector<std::string>& warnings) {
+                        const std::vector<std::string>& warnings, const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
-        [&] { return writeProof(file, checker, states, certificate, warnings); });
+        [&] { return writeProof(file, checker, states, certificate, warnings, stop); });
   }
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
@@ -67,17 +67,18 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
   requireProofFile(file, where, checker);
   const PathRecord record{
       .states = path.states, .segments = path.segments, .inputs = nullptr, .warnings = warnings};
-  return writtenProof(file, checker, record, certificateOf(checker, path.states, path.clearances()),
+  return writtenProof(file, checker, record,
+                      certificateOf(checker, path.states, path.clearances(), Json::array(), stop),
                       where);
 }
 
 WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& checker,
                             const ConstraintFrame& tool, std::span<const ToolLine> lines,
                             const ToolLineOptions& options,
-                            const std::vector<std::string>& warnings) {
+                            const std::vector<std::string>& warnings, const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
-        [&, lines] { return writeLineProof(file, checker, tool, lines, options, warnings); });
+        [&, lines] { return writeLineProof(file, checker, tool, lines, options, warnings, stop); });
   }
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
@@ -92,47 +93,50 @@ WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& ch
                           .warnings = warnings,
                           .lines = linesJson(checker, tool, lines, options)};
   return writtenProof(file, checker, record,
-                      certificateOf(checker, path.states, path.clearances(), record.lines), where);
+                      certificateOf(checker, path.states, path.clearances(), record.lines, stop),
+                      where);
 }
 
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
-                                  const std::vector<std::string>& warnings, double clock) {
+                                  const std::vector<std::string>& warnings, double clock,
+                                  const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, clock] {
-      return writeTrajectoryProof(file, checker, trajectory, certificate, warnings, clock);
+      return writeTrajectoryProof(file, checker, trajectory, certificate, warnings, clock, stop);
     });
   }
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
   requireWritable(file);
   WrittenProof written;
-  const Json path =
-      trajectoryProof(checker, trajectory, certificate, warnings, clock, where, written.missing);
+  const Json path = trajectoryProof(checker, trajectory, certificate, warnings, clock, where,
+                                    written.missing, stop);
   if (!written.missing.empty()) return written;
   writeWholeFile(file, pathText(path, where));
   return {};
 }
 
-CheckedProof verifyProof(const std::filesystem::path& file) {
+CheckedProof verifyProof(const std::filesystem::path& file, const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return verifyProof(file); });
+    return inDefaultEnvironment([&] { return verifyProof(file, stop); });
   }
   const Json path = pathWithProof(file.string());
   if (!path.contains("model"))
     throw InputError(file.string(), 0,
                      "the robot and the world are not in it; verifyProof() with a checker of them "
                      "takes it");
-  return checkedProof(verified(path, nullptr));
+  return checkedProof(verified(path, nullptr, stop));
 }
 
-CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker) {
+CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker,
+                         const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return verifyProof(file, checker); });
+    return inDefaultEnvironment([&] { return verifyProof(file, checker, stop); });
   }
   const Json path = pathWithProof(file.string());
-  const VerifyOutcome outcome = verified(path, modelJson(checker));
+  const VerifyOutcome outcome = verified(path, modelJson(checker), stop);
   const Json own = constraintsJson(checker);
   if (outcome.holds() && !own.empty() && path.value("constraints", Json::array()) != own)
     return {.refusal = "constraints: they are not those of the checker", .notChecked = {}};

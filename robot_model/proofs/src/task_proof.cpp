@@ -8,6 +8,7 @@
 #include "certificate/checked_proof.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
+#include "certificate/stopping.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "certificate/trajectory_proof.hpp"
 #include "io/json_value.hpp"
@@ -83,9 +84,10 @@ JointTrajectory delayed(JointTrajectory trajectory, double seconds) {
   return trajectory;
 }
 
-WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPhase> phases) {
+WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPhase> phases,
+                       const std::stop_token& stop) {
   if (detail::inForeignEnvironment())
-    return inDefaultEnvironment([&, phases] { return writeTask(file, phases); });
+    return inDefaultEnvironment([&, phases] { return writeTask(file, phases, stop); });
   const std::string where = "'" + file.string() + "'";
   if (file.extension() != ".json") throw UsageError(where + ": a file with a proof ends in .json");
   if (phases.empty()) throw UsageError(where + ": a task has one phase or more");
@@ -98,15 +100,16 @@ WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPh
     std::string missing;
     requireStanding(*phase.checker, "a task");
     Json path = trajectoryProof(*phase.checker, phase.trajectory, phase.certificate, phase.warnings,
-                                0.0, where + ", " + number, missing);
+                                0.0, where + ", " + number, missing, stop);
     if (!missing.empty()) return {.missing = number + ", " + missing};
     requireUtf8({phase.name, changesJson(phase.changes)}, where);
     if (i == 0) task["robot"] = path["robot"];
     task["phases"].push_back(phaseJson(phase, std::move(path)));
   }
+  throwIfStopped(stop);
   task["digest"] = verify::taskDigest(task);
   try {
-    verify::checkTask(task);
+    verify::checkTask(task, pauseOf(stop));
   } catch (const verify::Refusal& refusal) {
     throw UsageError(where + ": " + refusal.what());
   }
@@ -114,12 +117,13 @@ WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPh
   return {};
 }
 
-CheckedTask verifyTask(const std::filesystem::path& file) {
-  if (detail::inForeignEnvironment()) return inDefaultEnvironment([&] { return verifyTask(file); });
+CheckedTask verifyTask(const std::filesystem::path& file, const std::stop_token& stop) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return verifyTask(file, stop); });
   const Json task = taskOf(file);
   CheckedTask checked;
   try {
-    for (const verify::PhaseSummary& phase : verify::checkTask(task))
+    for (const verify::PhaseSummary& phase : verify::checkTask(task, pauseOf(stop)))
       checked.phases.push_back({.name = phase.name,
                                 .group = phase.group,
                                 .begin = phase.begin,

@@ -10,11 +10,13 @@
 #include <functional>
 #include <iterator>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "input_files.hpp"
 #include "sliding_cube.hpp"
+#include "swept/core/enclosing_spheres.hpp"
 #include "swept/robot_model/path_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
 #include "transcript.hpp"
@@ -148,6 +150,19 @@ TEST_F(PathProof, IsNotWrittenOfAPathThatIsNotFree) {
             "'" + (folder_.path() / "proof.json").string() +
                 "': there is no proof of a path that is not free: segment 2 of 2 is collision");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "proof.json"));
+}
+
+TEST_F(PathProof, IsNotWrittenOnceItIsStopped) {
+  const PathCertificate certificate = certifyPath(checker_, kOver);
+  const std::filesystem::path file = folder_.path() / "proof.json";
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(writeProof(file, checker_, kOver, certificate, {}, stop.get_token()), SearchStopped);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_TRUE(writeProof(file, checker_, kOver, certificate).isWritten());
+  EXPECT_THROW(verifyProof(file, stop.get_token()), SearchStopped);
+  EXPECT_THROW(verifyProof(file, checker_, stop.get_token()), SearchStopped);
+  EXPECT_TRUE(verifyProof(file, checker_).holds());
 }
 
 TEST_F(PathProof, OfStatesIsNotWrittenBesideMovingObstacles) {

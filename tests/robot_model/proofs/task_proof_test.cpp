@@ -3,18 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "carried_box.hpp"
 #include "input_files.hpp"
 #include "message_of.hpp"
+#include "swept/core/enclosing_spheres.hpp"
 #include "swept/robot_model/usage_error.hpp"
 #include "transcript.hpp"
 #include "verify/task.hpp"
@@ -83,6 +86,20 @@ TEST_F(Task, HoldsAndSaysWhatChanges) {
   }
   EXPECT_EQ(task.phases[1].group, "up");
   for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(task.phases[i].begin, task.phases[i - 1].end);
+}
+
+TEST_F(Task, IsNotWrittenOnceItIsStopped) {
+  std::stop_source stop;
+  ASSERT_EQ(writeTask(file(), phases(), stop.get_token()).missing, "");
+  const std::string text = textOf(file());
+  EXPECT_TRUE(verifyTask(file(), stop.get_token()).holds());
+  stop.request_stop();
+  EXPECT_THROW(writeTask(file(), phases(), stop.get_token()), SearchStopped);
+  EXPECT_THROW(verifyTask(file(), stop.get_token()), SearchStopped);
+  EXPECT_EQ(textOf(file()), text);
+  std::filesystem::remove(file());
+  EXPECT_THROW(writeTask(file(), phases(), stop.get_token()), SearchStopped);
+  EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
 TEST_F(Task, IsReadAgain) {

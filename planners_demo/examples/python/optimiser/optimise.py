@@ -133,7 +133,7 @@ def main(arguments: List[str]) -> int:
         outcomes = []
         for index in indices:
             problem = file.problem(name, index)
-            start, goal = (empty.configuration(dict(zip(problem.joint_names, end.tolist())))
+            start, goal = (empty.configuration(dict(zip(problem.joint_names, map(float, end))))
                            for end in (problem.start, problem.goals[0]))
             found = solve(empty.with_world(problem.world), start, goal, limits)
             outcomes += [] if found is None else [found]

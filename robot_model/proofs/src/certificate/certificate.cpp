@@ -12,6 +12,7 @@
 #include "certificate/constraints_json.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/pair_search.hpp"
+#include "certificate/stopping.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "verify/check.hpp"
 #include "verify/constraint.hpp"
@@ -28,8 +29,10 @@ constexpr std::array kSharesInTube = {kShareOfClearance, 0.1, 0.0};
 
 class CertificateSearch {
  public:
-  CertificateSearch(const Checker& checker, const Json& model, double clock)
-      : model_(modelAt(model, clock)),
+  CertificateSearch(const Checker& checker, const Json& model, double clock,
+                    const std::stop_token& stop)
+      : stop_(stop),
+        model_(modelAt(model, clock)),
         pairs_(verify::pairsToProve(model_)),
         constraints_(verify::readConstraints(constraintsJson(checker), model_)),
         inTube_(model.contains("tracking")) {
@@ -45,6 +48,7 @@ class CertificateSearch {
   Json segment(const verify::Motion& motion, double clearance, std::string& missing) {
     Json proofs = Json::array();
     for (const verify::PairToProve& pair : pairs_) {
+      throwIfStopped(stop_);
       Json entry = pairProof(motion, pair, clearance);
       if (entry.is_null()) {
         missing = nameOf(pair.a) + " - " + nameOf(pair.b);
@@ -89,7 +93,7 @@ class CertificateSearch {
       const double more = measured ? std::max(0.0, share * (clearance - margin)) : 0.0;
       const double keep = std::isfinite(more) ? margin + more : margin;
       Json entry = PairSearch(model_, motion, pair, bodies_[static_cast<std::size_t>(pair.a)],
-                              bodies_[static_cast<std::size_t>(pair.b)], keep)
+                              bodies_[static_cast<std::size_t>(pair.b)], keep, stop_)
                        .run();
       if (!entry.is_null() || !inTube_ || keep == margin) return entry;
     }
@@ -105,6 +109,7 @@ class CertificateSearch {
           std::minmax(numbers.at({pair.bodyA, true}), numbers.at({pair.bodyB, pair.selfPair})));
   }
 
+  const std::stop_token& stop_;
   verify::Model model_;
   std::vector<verify::PairToProve> pairs_;
   std::vector<verify::Constraint> constraints_;
@@ -118,9 +123,10 @@ class CertificateSearch {
 /// `motionOf` and `clearanceOf`: of a segment. `knots`: what each two of are one.
 template <typename MotionOf, typename ClearanceOf>
 Certificate certificateBetween(const Checker& checker, const Json& knots, double clock,
-                               const MotionOf& motionOf, const ClearanceOf& clearanceOf) {
+                               const MotionOf& motionOf, const ClearanceOf& clearanceOf,
+                               const std::stop_token& stop) {
   Certificate certificate{.model = modelJson(checker), .proof = nullptr, .missing = {}};
-  CertificateSearch search(checker, certificate.model, clock);
+  CertificateSearch search(checker, certificate.model, clock, stop);
   Json segments = Json::array();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     std::string missing;
@@ -139,11 +145,12 @@ Certificate certificateBetween(const Checker& checker, const Json& knots, double
 
 /// The first place where verifying would not show a line; empty: there is none.
 std::string lineNotShown(const Json& modelOfProof, std::span<const std::vector<double>> states,
-                         const Json& lines) {
+                         const Json& lines, const std::stop_token& stop) {
   if (lines.empty()) return {};
   const verify::Model model = verify::withoutTolerances(verify::readModel(modelOfProof));
   for (const verify::Line& line : verify::readLines(lines, model, states.size() - 1))
     for (std::size_t i = line.first; line.has(i); ++i) {
+      throwIfStopped(stop);
       const std::string place = "segment " + std::to_string(i + 1) + ", " + line.name;
       try {
         verify::checkLine(verify::Motion(model, states[i], states[i + 1]), line, i, place);
@@ -157,7 +164,8 @@ std::string lineNotShown(const Json& modelOfProof, std::span<const std::vector<d
 }  // namespace
 
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
-                          std::span<const double> clearances, const Json& lines) {
+                          std::span<const double> clearances, const Json& lines,
+                          const std::stop_token& stop) {
   requireStanding(checker, "a path");
   Json knots = Json::array();
   for (const std::vector<double>& q : states) knots.push_back(toJson(q));
@@ -166,15 +174,15 @@ Certificate certificateOf(const Checker& checker, std::span<const std::vector<do
       [&](const verify::Model& model, std::size_t i) {
         return verify::Motion(model, states[i], states[i + 1]);
       },
-      [&](std::size_t i) { return clearances[i]; });
+      [&](std::size_t i) { return clearances[i]; }, stop);
   if (certificate.missing.empty())
-    certificate.missing = lineNotShown(certificate.model, states, lines);
+    certificate.missing = lineNotShown(certificate.model, states, lines, stop);
   if (!certificate.missing.empty()) certificate.proof = nullptr;
   return certificate;
 }
 
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
-                          double clearance, double clock) {
+                          double clearance, double clock, const std::stop_token& stop) {
   requireTurnsOfProofs(checker);
   const auto pointOf = [&](std::size_t i) {
     const TrajectoryPoint& point = trajectory.points[i];
@@ -189,7 +197,7 @@ Certificate certificateOf(const Checker& checker, const JointTrajectory& traject
       [&](const verify::Model& model, std::size_t i) {
         return verify::Motion(model, pointOf(i), pointOf(i + 1));
       },
-      [&](std::size_t) { return clearance; });
+      [&](std::size_t) { return clearance; }, stop);
   if (!certificate.proof.is_null())
     certificate.proof["digests"]["points"] = verify::pointDigests(json);
   return certificate;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,16 @@ struct Certificate {
 /// not part of the clearances; the planes prove that they stay farther apart than the margin.
 /// Likewise pairs to which the joints' tolerances leave no more. Throws UsageError for moving
 /// obstacles: a path has no times. `lines`: of the path file, see linesJson(); they have to be
-/// shown, too.
+/// shown, too. Throws SearchStopped soon after `stop` is requested.
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
-                          std::span<const double> clearances, const Json& lines = Json::array());
+                          std::span<const double> clearances, const Json& lines = Json::array(),
+                          const std::stop_token& stop = {});
 
 /// The same for the curve that a controller makes of a trajectory, between its points. `clearance`:
 /// m, of all of it. Variables are those of the group, in its order. `clock`: s, what that of moving
 /// obstacles shows at the trajectory's time 0. Throws UsageError for an obstacle that turns by
 /// about half a turn from one waypoint to the next.
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
-                          double clearance, double clock);
+                          double clearance, double clock, const std::stop_token& stop = {});
 
 }  // namespace swept

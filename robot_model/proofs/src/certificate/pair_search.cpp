@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "certificate/stopping.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept {
@@ -83,6 +84,7 @@ Json PairSearch::plane(const Between& between, int a, int b, const Vector3d& dir
 }
 
 Json PairSearch::tree(Between& between, int a, int b) {
+  throwIfStopped(stop_);
   if (--between.nodes < 0) return nullptr;
   const Isometry3d& placedA = between.motion.placedA().reference_from_link;
   const Isometry3d& placedB = between.motion.placedB().reference_from_link;
@@ -99,8 +101,8 @@ Json PairSearch::tree(Between& between, int a, int b) {
     const double play = between.motion.play(a, b, way);
     const double spare = distanceOf(between) - keep_ - play;
     // What tolerances take beyond the first order is there in the shortest interval, too.
-    const double apart = play > 0.0 ? stillOf(between).gap(a, b, way)
-                                    : found.lower - a_.grownBy(a) - b_.grownBy(b);
+    const double apart =
+        play > 0.0 ? stillOf(between).gap(a, b, way) : found.lower - a_.grownBy(a) - b_.grownBy(b);
     if (apart >= keep_ + kShare * (play > 0.0 ? std::max(spare, 0.0) : spare)) return nullptr;
   }
   const bool leafA = a_.body().isLeaf(a), leafB = b_.body().isLeaf(b);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <stop_token>
+
 #include "certificate/body_search.hpp"
 #include "output/text_output.hpp"
 #include "verify/motion.hpp"
@@ -13,10 +15,11 @@ namespace swept {
 /// verifier's own bound says whether and for how long it separates the bodies.
 class PairSearch {
  public:
-  /// `keep`: m; what the planes have to show, more than the margin of the pair.
+  /// `keep`: m; what the planes have to show, more than the margin of the pair. Once `stop` is
+  /// requested, run() throws SearchStopped.
   PairSearch(const verify::Model& model, const verify::Motion& motion, verify::PairToProve pair,
-             SearchedBody& a, SearchedBody& b, double keep)
-      : model_(model), motion_(motion), pair_(pair), a_(a), b_(b), keep_(keep) {}
+             SearchedBody& a, SearchedBody& b, double keep, const std::stop_token& stop)
+      : model_(model), motion_(motion), pair_(pair), a_(a), b_(b), keep_(keep), stop_(stop) {}
 
   /// The pair's entry without its digest. Null where no proof was found: the bodies come nearer
   /// than `keep`, or so near that the proof would need too many intervals.
@@ -37,6 +40,7 @@ class PairSearch {
   SearchedBody& a_;
   SearchedBody& b_;
   double keep_;
+  const std::stop_token& stop_;
 };
 
 }  // namespace swept

@@ -6,6 +6,7 @@
 #include "certificate/certificate.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
+#include "certificate/stopping.hpp"
 #include "swept/robot_model/usage_error.hpp"
 
 namespace swept {
@@ -38,7 +39,7 @@ void requireVariables(const JointTrajectory& trajectory, const Checker& checker)
 Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                      const TrajectoryCertificate& certificate,
                      const std::vector<std::string>& warnings, double clock,
-                     const std::string& where, std::string& missing) {
+                     const std::string& where, std::string& missing, const std::stop_token& stop) {
   requireVariables(trajectory, checker);
   controllerCurve(trajectory);  // sizes, times and values are what they have to be
   const ProvenPath path = provenPath(trajectory, certificate);
@@ -51,7 +52,8 @@ Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                           .trajectory = &trajectory,
                           .clock = clock};
   const Certificate found =
-      certificateOf(checker, trajectory, path.segments.front().clearance, clock);
+      certificateOf(checker, trajectory, path.segments.front().clearance, clock, stop);
+  throwIfStopped(stop);
   missing = found.missing;
   return missing.empty() ? pathJson(checker, record, found, true, where) : Json();
 }

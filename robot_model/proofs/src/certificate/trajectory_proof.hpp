@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,6 @@ namespace swept {
 Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
                      const TrajectoryCertificate& certificate,
                      const std::vector<std::string>& warnings, double clock,
-                     const std::string& where, std::string& missing);
+                     const std::string& where, std::string& missing, const std::stop_token& stop);
 
 }  // namespace swept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/verify_outcome.hpp"
 
+#include "certificate/stopping.hpp"
 #include "io/json_value.hpp"
 #include "swept/robot_model/input.hpp"
 #include "verify/check.hpp"
@@ -18,11 +19,11 @@ Json pathWithProof(const std::string& file) {
   return path;
 }
 
-VerifyOutcome verified(const Json& path, const Json& other) {
+VerifyOutcome verified(const Json& path, const Json& other, const std::stop_token& stop) {
   VerifyOutcome outcome;
   const bool embedded = path.contains("model");
   try {
-    outcome.summary = verify::checkProof(path, embedded ? path["model"] : other);
+    outcome.summary = verify::checkProof(path, embedded ? path["model"] : other, pauseOf(stop));
     if (embedded && !other.is_null()) verify::requireSameModel(path["proof"], other);
   } catch (const verify::Refusal& refusal) {
     outcome.refusal = refusal.what();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include "output/text_output.hpp"
@@ -23,7 +24,7 @@ Json pathWithProof(const std::string& file);
 
 /// Verifies the proof of a path against the model in its file, where there is one, and against
 /// `other`, where that is not null. At least one of the two must be there. The other model must be
-/// the same.
-VerifyOutcome verified(const Json& path, const Json& other);
+/// the same. Throws SearchStopped soon after `stop` is requested.
+VerifyOutcome verified(const Json& path, const Json& other, const std::stop_token& stop = {});
 
 }  // namespace swept

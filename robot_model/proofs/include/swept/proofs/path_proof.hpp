@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -39,16 +40,18 @@ struct WrittenProof {
 /// of certifyPath() for the same states, with clearances. `warnings`: lines about what is not
 /// checked, which the reader of the file sees again (LoadOptions::warnOfUnchecked). The planes
 /// hold wherever CheckerOptions::tracking lets the robot be. The constraints of the checker are in
-/// the file, and need no planes: whoever checks it proves them from the states.
+/// the file, and need no planes: whoever checks it proves them from the states. Looking for planes
+/// ends soon after `stop` is requested, and no file is written.
 ///
 /// Throws UsageError for a path that is not Free, a world with moving obstacles (a path has no
 /// times; writeTrajectoryProof() takes them), names that are not UTF-8, a file that cannot be
 /// written or has another extension, and a proof that is larger than readable files
 /// (kMaxTextBytes); std::invalid_argument for a certificate with another number of segments, or
-/// without clearances.
+/// without clearances; SearchStopped for `stop`.
 WrittenProof writeProof(const std::filesystem::path& file, const Checker& checker,
                         const ConfigurationList& states, const PathCertificate& certificate,
-                        const std::vector<std::string>& warnings = {});
+                        const std::vector<std::string>& warnings = {},
+                        const std::stop_token& stop = {});
 
 /// The same for a trajectory: for the curve that controllerCurve() makes of it, from its first
 /// point to its last. A start that is no point of it is not part of the file. `certificate`: the
@@ -60,12 +63,12 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
 /// limits of a position, and for an obstacle that turns by about half a turn from one waypoint to
 /// the next; std::invalid_argument for a trajectory that controllerCurve() refuses, variables other
 /// than the group's in its order, a certificate that ends at another time, or one without
-/// clearances.
+/// clearances; SearchStopped for `stop`.
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
-                                  const std::vector<std::string>& warnings = {},
-                                  double clock = 0.0);
+                                  const std::vector<std::string>& warnings = {}, double clock = 0.0,
+                                  const std::stop_token& stop = {});
 
 /// The same for lines of a ToolLinePlanner, one after the other, each of which begins where the one
 /// before ends: for the straight motions between their way points. The file also says, and whoever
@@ -74,11 +77,12 @@ WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Check
 /// is not complete is shown as far as its way points go.
 ///
 /// Throws UsageError as writeProof() does; std::invalid_argument for no line, and for one that does
-/// not begin where the one before ends.
+/// not begin where the one before ends; SearchStopped for `stop`.
 WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& checker,
                             const ConstraintFrame& tool, std::span<const ToolLine> lines,
                             const ToolLineOptions& options = {},
-                            const std::vector<std::string>& warnings = {});
+                            const std::vector<std::string>& warnings = {},
+                            const std::stop_token& stop = {});
 
 /// The result of checking a proof.
 struct CheckedProof {
@@ -117,11 +121,13 @@ struct CheckedProof {
 
 /// Checks the proof of a path file against the robot and the world in it. The file must come from
 /// writeProof(), writeTrajectoryProof(), `swept plan --embed` or `swept certify --embed`. Throws
-/// InputError for a file that is no path with a proof, or has no robot and world.
-CheckedProof verifyProof(const std::filesystem::path& file);
+/// InputError for a file that is no path with a proof, or has no robot and world, and SearchStopped
+/// soon after `stop` is requested.
+CheckedProof verifyProof(const std::filesystem::path& file, const std::stop_token& stop = {});
 
 /// The same for any path file with a proof; also checks that robot, world and rules are those of
 /// `checker`, and that the file shows its constraints, if it has any.
-CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker);
+CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker,
+                         const std::stop_token& stop = {});
 
 }  // namespace swept

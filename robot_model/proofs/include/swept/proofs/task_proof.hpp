@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -46,12 +47,14 @@ JointTrajectory delayed(JointTrajectory trajectory, double seconds);
 
 /// Finds the planes of each phase as writeTrajectoryProof() does. Writes one `.json` file, which
 /// verifyTask() and `swept verify` check without any other file. The file is written completely or
-/// not at all. `WrittenProof::missing` begins with the phase.
+/// not at all. `WrittenProof::missing` begins with the phase. Looking for planes, and checking the
+/// task before it is written, end soon after `stop` is requested.
 ///
 /// Throws UsageError for phases that do not join (see CheckedTask), with the difference; for no
 /// phase; and as writeTrajectoryProof() does. Throws std::invalid_argument as that one does, and
-/// for null.
-WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPhase> phases);
+/// for null; SearchStopped for `stop`.
+WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPhase> phases,
+                       const std::stop_token& stop = {});
 
 /// A phase of a task whose proof holds.
 struct CheckedPhase {
@@ -82,8 +85,8 @@ struct CheckedTask {
 };
 
 /// Checks a file of writeTask(), with the code of robot_model/verify alone. Throws InputError for
-/// a file that is no task.
-CheckedTask verifyTask(const std::filesystem::path& file);
+/// a file that is no task, and SearchStopped soon after `stop` is requested.
+CheckedTask verifyTask(const std::filesystem::path& file, const std::stop_token& stop = {});
 
 /// A phase of a task file, as a controller needs it.
 struct TaskStep {
