@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "container.hpp"
 #include "environment.hpp"
 #include "inside.hpp"
 
@@ -25,89 +26,8 @@ using Points = std::vector<Vector3d>;
 constexpr std::size_t kMostCells = 10'000'000;
 /// Relative to the coordinates: a point goes through a pose (at most 6 roundings of 1.1e-16), as
 /// many clippings as a cell is deep (kDepth, of 4 each, as a clipped corner may be clipped again),
-/// and a distance (10).
+/// and a distance (10; from a face of a hull, times the product of two of its sides, 20).
 constexpr double kCoverRounding = 1e-13;
-
-/// A convex shape of the model: a box with rounded edges, or a ball or cylinder.
-struct Container {
-  bool round = false;                ///< a cylinder: across z
-  Vector3d half = Vector3d::Zero();  ///< m; of a cylinder the radius, and half of the length (z)
-  double radius = 0.0;               ///< m, around that
-  Isometry3d shape_from_link = Isometry3d::Identity();
-
-  bool contains(const Vector3d& point, double rounding) const {
-    const Vector3d at = shape_from_link * point;
-    if (round)
-      return std::hypot(at.x(), at.y()) + rounding <= half.x() &&
-             std::abs(at.z()) + rounding <= half.z();
-    const Vector3d beyond = (at.cwiseAbs() - half).cwiseMax(0.0);
-    if (radius == 0.0) return ((at.cwiseAbs().array() + rounding) <= half.array()).all();
-    return beyond.norm() + rounding <= radius;
-  }
-};
-
-double sizeOf(const Json& json, const char* key, const std::string& where) {
-  const double value = readNumber(at(json, key, where), where + ", " + key);
-  if (!(value >= 0.0)) throw Refusal(where + ": " + key + " is negative");
-  return value;
-}
-
-double numberAt(const Json& list, std::size_t i, std::size_t count, const std::string& where) {
-  if (!list.is_array() || list.size() != count)
-    throw Refusal(where + ": not " + std::to_string(count) + " numbers");
-  return readNumber(list[i], where);
-}
-
-Isometry3d poseOfShape(const Json& list, const std::string& where) {
-  std::array<double, 7> n{};
-  for (std::size_t i = 0; i < 7; ++i) n[i] = numberAt(list, i, 7, where);
-  const Eigen::Quaterniond turn(n[6], n[3], n[4], n[5]);
-  if (!(std::abs(turn.norm() - 1.0) < 1e-2)) throw Refusal(where + ": no rotation");
-  Isometry3d pose(turn.normalized());
-  pose.translation() = Vector3d(n[0], n[1], n[2]);
-  return pose;
-}
-
-Container containerOf(const Json& json, const std::string& where) {
-  Container container;
-  const Json& named = at(json, "type", where);
-  const std::string type = named.is_string() ? named.get<std::string>() : "";
-  if (type == "sphere") {
-    container.radius = sizeOf(json, "radius", where);
-  } else if (type == "capsule") {
-    container.radius = sizeOf(json, "radius", where);
-    container.half.z() = 0.5 * sizeOf(json, "length", where);
-  } else if (type == "cylinder") {
-    container.round = true;
-    container.half =
-        Vector3d(sizeOf(json, "radius", where), 0.0, 0.5 * sizeOf(json, "length", where));
-  } else if (type == "box") {
-    container.half = 0.5 * readVector(at(json, "size", where), where + ", size");
-    if (!(container.half.minCoeff() >= 0.0)) throw Refusal(where + ": size is negative");
-  } else {
-    throw Refusal(where + ": nothing is shown of the type '" + type + "'");
-  }
-  container.shape_from_link = poseOfShape(at(json, "pose", where), where + ", pose").inverse();
-  return container;
-}
-
-std::vector<Container> containersOf(const Json& link, const std::string& where) {
-  std::vector<Container> containers;
-  if (link.contains("spheres"))
-    for (const Json& sphere : readList(link, "spheres", where)) {
-      Container container;
-      container.radius = numberAt(sphere, 3, 4, where);
-      if (!(container.radius >= 0.0)) throw Refusal(where + ": a radius is negative");
-      container.shape_from_link.translation() =
-          -Vector3d(numberAt(sphere, 0, 4, where), numberAt(sphere, 1, 4, where),
-                    numberAt(sphere, 2, 4, where));
-      containers.push_back(container);
-    }
-  else
-    for (const Json& shape : readList(link, "shapes", where))
-      containers.push_back(containerOf(shape, where));
-  return containers;
-}
 
 std::string placeText(const Vector3d& point) {
   char text[96];
@@ -131,7 +51,9 @@ class Containment {
     for (const Vector3d& point : points) size = std::max(size, point.lpNorm<1>());
     return std::ranges::any_of(containers_, [&](const Container& container) {
       const double rounding =
-          kCoverRounding * (size + container.shape_from_link.translation().lpNorm<1>()) + radius;
+          kCoverRounding *
+              (size + container.shape_from_link.translation().lpNorm<1>() + container.reach) +
+          radius;
       return std::ranges::all_of(
           points, [&](const Vector3d& point) { return container.contains(point, rounding); });
     });
@@ -346,16 +268,19 @@ void checkShape(const Json& json, const std::string& where, Containment& link) {
 CoverSummary checkCover(const Json& cover, const Json& bodies) {
   CoverSummary summary;
   inDefaultEnvironment([&] {
+    const bool ofScene = cover.contains("bodies");
+    const std::string term = ofScene ? "body" : "link";
     std::map<std::string, const Json*> links;
-    for (const Json& link : readList(cover, "links", "the model")) {
-      const Json& name = at(link, "link", "the model");
-      if (!name.is_string()) throw Refusal("the model: the name of a link is no text");
+    for (const Json& link : readList(cover, ofScene ? "bodies" : "links", "the model")) {
+      const Json& name = at(link, term.c_str(), "the model");
+      if (!name.is_string()) throw Refusal("the model: the name of a " + term + " is no text");
       if (!links.emplace(name.get<std::string>(), &link).second)
-        throw Refusal("the model: link '" + name.get<std::string>() + "' is there twice");
+        throw Refusal("the model: " + term + " '" + name.get<std::string>() + "' is there twice");
     }
     for (const Json& body : bodies) {
       const auto name = body["name"].get<std::string>();
-      const std::string where = "link '" + name + "'";
+      std::string where = term;
+      where += " '" + name + "'";
       const auto own = links.find(name);
       if (own == links.end()) throw Refusal(where + ": the model has nothing for it");
       std::vector<Container> containers = containersOf(*own->second, where);

@@ -7,7 +7,7 @@
 
 namespace swept::verify {
 
-/// What was shown of a model that contains the links of a robot.
+/// What was shown of a model that contains the links of a robot or the bodies of a scene.
 struct CoverSummary {
   std::size_t links = 0;   ///< that are contained
   std::size_t shapes = 0;  ///< that contain them
@@ -19,7 +19,12 @@ struct CoverSummary {
 ///
 /// `bodies`: a list, each with `name` and `shapes` as a model's bodies have them. `cover`: `links`,
 /// each with `link` and `spheres` of [x, y, z, radius], or `shapes` (`sphere`, `box`, `cylinder`,
-/// `capsule`) as `swept cover` writes them. m.
+/// `capsule`, `convex`) as `swept cover` writes them; or `bodies`, each with `body`, likewise. m.
+///
+/// A point is in a hull if it is behind all of some triangles between the hull's vertices, of which
+/// each edge is passed as often one way as the other: each triangle then turns around the point by
+/// an angle of the same sign, so together they go around it, and a closed surface goes around no
+/// point outside of a convex set that it lies in.
 ///
 /// A cell is the hull of points. It is in a convex shape if all of its points are; else it is
 /// halved. Triangles are halved as they are; boxes and round shapes in coordinates of their own,

@@ -272,7 +272,7 @@ TEST_F(CoverProgram, IsVerifiedByOtherMeans) {
   <joint name="turn" type="continuous"><parent link="wedge"/><child link="round"/></joint>
 </robot>
 )");
-  for (const std::string shape : {"sphere", "capsule", "box"}) {
+  for (const std::string shape : {"sphere", "capsule", "box", "convex"}) {
     const std::string file = folder_.path(shape + ".json");
     // The seam of two boxes that overlap by a micrometre takes too many cells.
     const std::string count = shape == "box" ? "2" : "9";
@@ -290,6 +290,9 @@ TEST_F(CoverProgram, IsVerifiedByOtherMeans) {
         for (nlohmann::json& part : link["shapes"]) {
           if (shape == "box")
             part["size"][0] = 0.99 * part["size"][0].get<double>();
+          else if (shape == "convex")
+            for (nlohmann::json& vertex : part["vertices"])
+              vertex[2] = 0.99 * vertex[2].get<double>();
           else
             part["radius"] = 0.99 * part["radius"].get<double>();
         }
@@ -304,6 +307,36 @@ TEST_F(CoverProgram, IsVerifiedByOtherMeans) {
   EXPECT_THAT(runSwept({"verify", file}).err, HasSubstr("--robot ROBOT.urdf"));
   EXPECT_THAT(runSwept({"verify", file, "--robot", urdf_}).out,
               HasSubstr("refused: link 'slab': the model has nothing for it"));
+}
+
+/// Of a hull its vertices and faces are all that counts: a face less is an opening, one that is
+/// turned round leaves nothing behind all of them, and vertices alone say nothing.
+TEST_F(CoverProgram, VerifiesHullsByTheirFaces) {
+  const std::string robot = folder_.write(
+      "box.urdf",
+      "<robot name=\"box\"><link name=\"box\"><collision><geometry><box size=\"0.2 0.3 0.4\"/>"
+      "</geometry></collision></link></robot>");
+  const std::string hull = R"("type": "convex", "pose": [0, 0, 0, 0, 0, 0, 1],
+    "vertices": [[-1, -1, -1], [5, -1, -1], [-1, 5, -1], [-1, -1, 5]])";
+  const auto verified = [&](const std::string& shape) {
+    const std::string file =
+        folder_.write("hull.json", R"({"links": [{"link": "box", "shapes": [{)" + shape + "}]}]}");
+    return runSwept({"verify", file, "--robot", robot}).out;
+  };
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])"),
+              HasSubstr("verified: 1 link contained in 1 shape"));
+  EXPECT_THAT(verified(hull), HasSubstr("refused: link 'box': a hull without faces"));
+  EXPECT_THAT(verified(hull + R"(, "faces": [])"), HasSubstr("a hull without faces"));
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 2, 1], [0, 1, 3], [1, 2, 3]])"),
+              HasSubstr("the faces of a hull leave an opening"));
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 3, 2]])"),
+              HasSubstr("the faces of a hull leave an opening"));
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]])"),
+              HasSubstr("it is not shown to be contained at ["));
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 2, 4]])"),
+              HasSubstr("a face has a corner that is not there"));
+  EXPECT_THAT(verified(hull + R"(, "faces": [[0, 2, 0.5]])"),
+              HasSubstr("a face has a corner that is not there"));
 }
 
 /// A room inside a solid is not left out, though the surface is contained.

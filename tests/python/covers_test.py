@@ -10,7 +10,7 @@ import pytest
 from conftest import MODELS, numbers
 
 import swept
-from swept import EnclosingSpheresSearch, Shape, SphereModel
+from swept import EnclosingKind, EnclosingSpheresSearch, Shape, ShapeModel, SphereModel
 
 
 @pytest.fixture(scope="module")
@@ -158,3 +158,31 @@ def test_what_models_refuse(robot, model, tmp_path):
     with pytest.raises(swept.ArgumentError, match="no link 'nose'"):
         robot.link_shapes("nose")
     assert copy.copy(model) is model and "SphereModel of" in repr(model)
+
+
+def test_models_of_scenes(tmp_path):
+    """Each body of a world is contained; files say so again; others are judged by hand."""
+    world = swept.World.load(str(MODELS / "scenes/table_objects.yaml"))
+    model = SphereModel.search(world, spheres=14, pieces=200, restarts=1)
+    assert len(model) <= 14 and "table" in model.links and all(model.judge(world))
+    for ending in (".json", ".yaml", ".scene"):
+        model.save(tmp_path / f"model{ending}", world)
+        again = SphereModel.load(tmp_path / f"model{ending}", world)
+        assert all((again[name] == model[name]).all() for name in model.links)
+    boxes = ShapeModel.search(world, EnclosingKind.BOX, shapes=14, pieces=40)
+    boxes.save(tmp_path / "boxes.yaml", world)
+    assert all(ShapeModel.load(tmp_path / "boxes.yaml", world).judge(world))
+    with pytest.raises(swept.InputError, match="ShapeModel.load reads it"):
+        SphereModel.load(tmp_path / "boxes.yaml", world)
+    with pytest.raises(swept.UsageError, match="allowed for a scene"):
+        model.save(tmp_path / "model.urdf", world)
+    with pytest.raises(swept.UsageError, match="3 spheres are too few for 12 bodies"):
+        SphereModel.search(world, spheres=3)
+    with pytest.raises(swept.ArgumentTypeError, match="expected a swept.Robot or a swept.World"):
+        SphereModel.search("robot.urdf", spheres=3)
+    world = swept.World()
+    pose = np.eye(4)
+    pose[2, 3] = 5.0
+    world.add("cube", Shape.box([0.2, 0.2, 0.2]), pose)
+    report, = SphereModel({"cube": [[0.0, 0.0, 5.0, 0.1]]}).judge(world)
+    assert not report and report.outside.lower == pytest.approx(0.1 * math.sqrt(3) - 0.1, abs=2e-5)

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -122,6 +123,33 @@ std::vector<Corners> boxTriangles(const Vector3d& size) {
   return triangles;
 }
 
+/// A polyhedron within a ball, or within a cylinder along z (`half`: m, of its length), with its
+/// corners on the surface.
+std::vector<Corners> roundTriangles(double radius, std::optional<double> half) {
+  constexpr int kSides = 128;
+  constexpr int kSteps = 32;
+  std::vector<std::array<double, 2>> outline;  // across, along
+  if (half)
+    outline = {{0.0, -*half}, {radius, -*half}, {radius, *half}, {0.0, *half}};
+  else
+    for (int i = 0; i <= 2 * kSteps; ++i) {
+      const double angle = 1.5707963267948966 * (i - kSteps) / kSteps;
+      outline.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  std::vector<Corners> triangles;
+  for (int side = 0; side < kSides; ++side)
+    for (std::size_t i = 1; i < outline.size(); ++i) {
+      const auto point = [&](std::size_t at, int k) {
+        const double angle = 6.283185307179586 * (k % kSides) / kSides;
+        return Vector3d(outline[at][0] * std::cos(angle), outline[at][0] * std::sin(angle),
+                        outline[at][1]);
+      };
+      triangles.push_back({point(i - 1, side), point(i - 1, side + 1), point(i, side + 1)});
+      triangles.push_back({point(i - 1, side), point(i, side + 1), point(i, side)});
+    }
+  return triangles;
+}
+
 /// The first robot element of a file; `document` keeps it.
 const Element& robotOf(const std::filesystem::path& file, tinyxml2::XMLDocument& document) {
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS)
@@ -214,6 +242,11 @@ std::map<std::string, RefuterLink> readRefuterLinks(const std::filesystem::path&
         triangles = meshTriangles(*mesh, urdf.parent_path());
       else if (const Element* box = geometry->FirstChildElement("box"))
         triangles = boxTriangles(numbers(box->Attribute("size"), Vector3d::Zero()));
+      else if (const Element* ball = geometry->FirstChildElement("sphere"))
+        triangles = roundTriangles(ball->DoubleAttribute("radius"), {});
+      else if (const Element* column = geometry->FirstChildElement("cylinder"))
+        triangles = roundTriangles(column->DoubleAttribute("radius"),
+                                   0.5 * column->DoubleAttribute("length"));
       const Isometry3d pose = originOf(*collision);
       for (Corners& corners : triangles)
         for (Vector3d& corner : corners) corner = pose * corner;

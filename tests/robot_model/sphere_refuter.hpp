@@ -18,7 +18,8 @@ struct RefuterBall {
   double radius;           ///< m
 };
 
-/// Triangles of a link, m, in its frame: those of meshes and boxes. Round shapes are left out.
+/// Triangles of a link, m, in its frame: those of meshes and boxes, and of polyhedra within round
+/// shapes, whose corners are on the surface.
 struct RefuterLink {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
   std::vector<std::vector<std::array<Eigen::Vector3d, 3>>> shapes;  ///< the same, per shape

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <queue>
 #include <tuple>
@@ -29,6 +30,7 @@ constexpr double kSingle = 1e-6;
 /// Relative to the size of the body: corners of hulls that are nearer to the rest are left out.
 constexpr double kSimpler = 2e-4;
 constexpr int kMostPieces = 1200;
+constexpr double kBoxCost = 0.02;  // of joining two nodes, per diagonal of their box
 
 Isometry3d poseOf(const Matrix3d& rotation, const Vector3d& place) {
   Isometry3d pose = Isometry3d::Identity();
@@ -363,9 +365,9 @@ ShapeFit::Node ShapeFit::leafOf(const BodyPiece& piece) const {
   throwIfStopped(stop_);
   Node node;
   node.pieces = {&piece};
-  node.blur = addPoints(piece, node.points);
-  node.points = ConvexHull::of(node.points).vertices();
-  fit(node);
+  std::vector<Vector3d> points;
+  node.blur = addPoints(piece, points);
+  fit(node, ConvexHull::of(points));
   return node;
 }
 
@@ -376,19 +378,19 @@ ShapeFit::Node ShapeFit::joinOf(int a, int b) const {
   Node node;
   node.left = a;
   node.right = b;
-  node.points = left.points;
-  node.points.insert(node.points.end(), right.points.begin(), right.points.end());
-  node.points = ConvexHull::of(node.points).vertices();
+  std::vector<Vector3d> points = left.points;
+  points.insert(points.end(), right.points.begin(), right.points.end());
   node.blur = std::max(left.blur, right.blur);
-  fit(node);
+  fit(node, ConvexHull::of(points));
   return node;
 }
 
 /// For the tree: what contains the points nearly, and how far it reaches.
-void ShapeFit::fit(Node& node) const {
+void ShapeFit::fit(Node& node, const ConvexHull& hull) const {
+  node.points = hull.vertices();
   for (const Vector3d& point : node.points) node.box.extend(point);
   if (kind_ == EnclosingKind::Convex) {
-    node.shape = {ConvexHull::of(node.points)};
+    node.shape = {hull};
   } else {
     std::vector<Matrix3d> frames = frames_;
     frames.push_back(axesOf(node.points));
@@ -423,20 +425,25 @@ std::vector<int> ShapeFit::neighboursOf(int node) const {
   return nodes;
 }
 
-/// Of two pairs that reach equally far, the one with the smaller box is joined first.
+/// Of two pairs that reach equally far, the one with the smaller box is joined first. The
+/// shape of a pair is looked for only when its box alone costs less than all other pairs: of most
+/// pairs, one is joined to another by then.
 void ShapeFit::agglomerate() {
   for (const BodyPiece& piece : pieces_) nodes_.push_back(leafOf(piece));
   struct Pair {
     double cost;
     int a, b;
+    std::shared_ptr<Node> joint;  ///< null: the cost is at least this
     bool operator<(const Pair& other) const {
       return std::tie(other.cost, other.a, other.b) < std::tie(cost, a, b);
     }
   };
   std::priority_queue<Pair> pairs;
   const auto push = [&](int a, int b) {
-    const Node joint = joinOf(a, b);
-    pairs.push({joint.reach + 0.02 * joint.box.diagonal().norm(), a, b});
+    const Eigen::AlignedBox3d box =
+        nodes_[static_cast<std::size_t>(a)].box.merged(nodes_[static_cast<std::size_t>(b)].box);
+    // The hull of both may lack corners by its error.
+    pairs.push({0.999 * kBoxCost * box.diagonal().norm(), a, b, nullptr});
   };
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     for (const int j : neighboursOf(static_cast<int>(i)))
@@ -448,12 +455,18 @@ void ShapeFit::agglomerate() {
         if (!nodes_[i].joined)
           for (const int j : neighboursOf(static_cast<int>(i))) push(static_cast<int>(i), j);
     }
-    const Pair pair = pairs.top();
+    Pair pair = pairs.top();
     pairs.pop();
     Node& a = nodes_[static_cast<std::size_t>(pair.a)];
     Node& b = nodes_[static_cast<std::size_t>(pair.b)];
     if (a.joined || b.joined) continue;
-    Node joint = joinOf(pair.a, pair.b);
+    if (pair.joint == nullptr) {
+      pair.joint = std::make_shared<Node>(joinOf(pair.a, pair.b));
+      pair.cost = pair.joint->reach + kBoxCost * pair.joint->box.diagonal().norm();
+      pairs.push(std::move(pair));
+      continue;
+    }
+    Node joint = std::move(*pair.joint);
     joint.pieces = a.pieces;
     joint.pieces.insert(joint.pieces.end(), b.pieces.begin(), b.pieces.end());
     a.joined = b.joined = true;

@@ -46,7 +46,7 @@ class ShapeFit {
   double addPoints(const BodyPiece& piece, std::vector<Eigen::Vector3d>& points) const;
   Node leafOf(const BodyPiece& piece) const;
   Node joinOf(int a, int b) const;
-  void fit(Node& node) const;
+  void fit(Node& node, const ConvexHull& hull) const;  ///< `hull`: of its points
   void agglomerate();
   std::vector<int> neighboursOf(int node) const;
   double reachOf(const PosedShape& shape) const;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "binding.hpp"
+#include "covered.hpp"
 #include "enums.hpp"
-#include "handles.hpp"
 #include "loading.hpp"
 #include "spheres.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -39,32 +39,27 @@ py::list shapesOf(const ShapeModel& model, const std::string& name) {
   throw std::invalid_argument("the model has no shapes for a link '" + name + "'");
 }
 
-ShapeModel searchShapes(const RobotHandle& robot, const py::object& kind, std::optional<int> shapes,
+ShapeModel searchShapes(const py::object& robot, const py::object& kind, std::optional<int> shapes,
                         std::optional<double> excess, int pieces, unsigned threads,
                         const Token& cancel) {
   if (shapes.has_value() == excess.has_value())
     throw std::invalid_argument("expected one of shapes and excess");
   const EnclosingKind of = enclosingKindOf(kind, "kind");
+  const Covered covered = coveredOf(robot);
   return watched(cancel, [&](const std::stop_token& stop) {
-    return enclosingShapeModel(*robot.robot, {.kind = of,
-                                              .shapes = shapes,
-                                              .excess = excess,
-                                              .search = {pieces},
-                                              .threads = threads,
-                                              .stop = stop});
+    const ShapeModelOptions options{.kind = of,
+                                    .shapes = shapes,
+                                    .excess = excess,
+                                    .search = {pieces},
+                                    .threads = threads,
+                                    .stop = stop};
+    return covered.world ? enclosingShapeModel(covered.bodies, options)
+                         : enclosingShapeModel(*covered.handle.robot, options);
   });
 }
 
-ShapeModel loadShapes(const std::filesystem::path& file, const RobotHandle& robot) {
-  Remarks remarks;
-  const LoadOptions options = remarks.optionsFor(robot.source);
-  ShapeModel model;
-  {
-    const py::gil_scoped_release others;
-    model = readShapeModel(file, *robot.robot, options);
-  }
-  remarks.warn();
-  return model;
+ShapeModel loadShapes(const std::filesystem::path& file, const py::object& robot) {
+  return shapesOfFile(file, coveredOf(robot));
 }
 
 void saveUrdf(const ShapeModel& self, const std::filesystem::path& file, const RobotHandle& robot) {
@@ -81,17 +76,20 @@ void saveUrdf(const ShapeModel& self, const std::filesystem::path& file, const R
 }
 
 void saveShapes(const ShapeModel& self, const std::filesystem::path& file,
-                const RobotHandle& robot) {
+                const py::object& robot) {
+  const Covered covered = coveredOf(robot);
   const std::string ending = endingOf(file);
-  if (ending == ".urdf") {
+  if (!covered.world && ending == ".urdf") {
     const py::gil_scoped_release others;
-    return saveUrdf(self, file, robot);
+    return saveUrdf(self, file, covered.handle);
   }
-  if (ending != ".json")
+  if (!covered.world && ending != ".json")
     throw UsageError("'" + file.string() + "' ends in '" + ending + "'; allowed: .urdf, .json");
   const std::string text = watched(nullptr, [&](const std::stop_token& stop) {
-    return shapeModelJson(self, robot.robot->name(),
-                          judgeShapeModel(*robot.robot, self, {.stop = questionOf(stop)}));
+    return covered.world
+               ? sceneTextOf(self, file, covered, stop)
+               : shapeModelJson(self, covered.name,
+                                judgeShapeModel(covered.bodies, self, {.stop = questionOf(stop)}));
   });
   const py::gil_scoped_release others;
   writeText(file, text);
@@ -106,7 +104,8 @@ void bindShapeModels(py::module_& module) {
       module, "ShapeModel",
       "Few capsules, boxes or convex hulls for the links of a robot, beside SphereModel: made with "
       "proof, read and judged. `model[link]` is a list of\npairs of a Shape and its pose (4, 4) in "
-      "the link's frame.");
+      "the link's frame. In place of a Robot, all methods take a World, as those of "
+      "SphereModel.");
   type.def(py::init(&modelOfShapes), py::arg("links"),
            "`links`: a Shape, or a list of pairs of a Shape and its pose, by the name of the link.")
       .def_static(
@@ -122,28 +121,32 @@ void bindShapeModels(py::module_& module) {
           "`threads`. Ctrl-C and `cancel` end it. Raises ArgumentError, and UsageError for fewer "
           "shapes than links with "
           "geometry.")
-      .def_static("load", &loadShapes, py::arg("file"), py::arg("robot"),
-                  "Reads shapes for a Robot: of `save`; .urdf with any collision geometry that "
-                  "outside_shapes takes; and files of SphereModel. Raises InputError.")
+      .def_static(
+          "load", &loadShapes, py::arg("file"), py::arg("robot"),
+          "Reads shapes for a Robot: of `save`; .urdf with any collision geometry that "
+          "outside_shapes takes; and files of SphereModel. For a World: .json of `save`, or a "
+          "scene with the same bodies. Raises InputError.")
       .def("save", &saveShapes, py::arg("file"), py::arg("robot"),
            "Writes a .json; or .urdf, the robot's with these for `<collision>`: a capsule is a "
-           "cylinder and two spheres, a hull a mesh in the folder NAME_meshes\nbeside it. Raises "
+           "cylinder and two spheres, a hull a mesh in the folder NAME_meshes\nbeside it. Of a "
+           "World: a .json, or a planning scene as .yaml, .yml or MoveIt's .scene. Raises "
            "UsageError for another ending and a file that cannot be written, and ArgumentError for "
            "other shapes than spheres, boxes,\ncylinders, capsules and hulls.")
       .def(
           "judge",
-          [](const ShapeModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
+          [](const ShapeModel& self, const py::object& robot, double tolerance, int mostSplits,
              int samples, unsigned threads, const Token& cancel) {
+            const Covered covered = coveredOf(robot);
             return py::tuple(py::cast(watched(cancel, [&](const std::stop_token& stop) {
-              return judgeShapeModel(*robot.robot, self,
+              return judgeShapeModel(covered.bodies, self,
                                      {tolerance, mostSplits, samples, questionOf(stop)}, threads);
             })));
           },
           py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
           py::arg("most_splits") = judged.mostSplits, py::arg("samples") = judged.samples,
           py::arg("threads") = 0, py::arg("cancel") = py::none(),
-          "A LinkSphereReport for each link of a Robot with collision geometry: of shapes in place "
-          "of spheres. Arguments as outside_shapes.")
+          "A LinkSphereReport for each link of a Robot with collision geometry, or each body of a "
+          "World: of shapes in place of spheres. Arguments as outside_shapes.")
       .def_property_readonly(
           "links",
           [](const ShapeModel& self) {

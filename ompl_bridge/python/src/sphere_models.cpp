@@ -12,7 +12,7 @@
 
 #include "arrays.hpp"
 #include "binding.hpp"
-#include "handles.hpp"
+#include "covered.hpp"
 #include "loading.hpp"
 #include "spheres.hpp"
 #include "swept/robot_model/shape_model.hpp"
@@ -42,50 +42,61 @@ const LinkSpheres& linkOf(const SphereModel& model, const std::string& name) {
   throw std::invalid_argument("the model has no spheres for a link '" + name + "'");
 }
 
-SphereModel search(const RobotHandle& robot, std::optional<int> spheres,
+SphereModel search(const py::object& robot, std::optional<int> spheres,
                    std::optional<double> excess, int pieces, int restarts, int rounds,
                    std::uint32_t seed, unsigned threads, const Token& cancel) {
   if (spheres.has_value() == excess.has_value())
     throw std::invalid_argument("expected one of spheres and excess");
+  const Covered covered = coveredOf(robot);
   return watched(cancel, [&](const std::stop_token& stop) {
-    return enclosingSphereModel(*robot.robot, {.spheres = spheres,
-                                               .excess = excess,
-                                               .search = {pieces, restarts, rounds, seed},
-                                               .threads = threads,
-                                               .stop = stop});
+    const SphereModelOptions options{.spheres = spheres,
+                                     .excess = excess,
+                                     .search = {pieces, restarts, rounds, seed},
+                                     .threads = threads,
+                                     .stop = stop};
+    return covered.world ? enclosingSphereModel(covered.bodies, options)
+                         : enclosingSphereModel(*covered.handle.robot, options);
   });
 }
 
-SphereModel load(const std::filesystem::path& file, const RobotHandle& robot) {
+SphereModel load(const std::filesystem::path& file, const py::object& robot) {
+  const Covered covered = coveredOf(robot);
+  if (covered.world) {
+    if (std::optional<SphereModel> spheres = sphereModelOf(shapesOfFile(file, covered)))
+      return *std::move(spheres);
+    throw InputError(file.string(), 0, "has shapes that are no spheres; ShapeModel.load reads it");
+  }
   Remarks remarks;
-  const LoadOptions options = remarks.optionsFor(robot.source);
+  const LoadOptions options = remarks.optionsFor(covered.source);
   SphereModel model;
   {
     const py::gil_scoped_release others;
-    model = readSphereModel(file, *robot.robot, options);
+    model = readSphereModel(file, *covered.handle.robot, options);
   }
   remarks.warn();
   return model;
 }
 
-Reports judge(const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
+Reports judge(const SphereModel& self, const py::object& robot, double tolerance, int mostSplits,
               int samples, unsigned threads, const Token& cancel) {
+  const Covered covered = coveredOf(robot);
   return watched(cancel, [&](const std::stop_token& stop) {
-    return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples, questionOf(stop)},
-                            threads);
+    return judgeSphereModel(covered.bodies, self,
+                            {tolerance, mostSplits, samples, questionOf(stop)}, threads);
   });
 }
 
 std::string textOf(const SphereModel& self, const std::filesystem::path& file,
-                   const RobotHandle& robot, const std::stop_token& stop) {
-  const std::string& name = robot.robot->name();
+                   const Covered& covered, const std::stop_token& stop) {
+  if (covered.world) return sceneTextOf(shapeModelOf(self), file, covered, stop);
+  const std::string& name = covered.name;
   const std::string ending = endingOf(file);
   if (ending == ".json")
     return sphereModelJson(self, name,
-                           judgeSphereModel(*robot.robot, self, {.stop = questionOf(stop)}));
+                           judgeSphereModel(covered.bodies, self, {.stop = questionOf(stop)}));
   if (ending == ".yaml" || ending == ".yml") return curoboSpheres(self, name);
   if (ending == ".xrdf") return xrdfSpheres(self);
-  const Source& source = robot.source;
+  const Source& source = covered.source;
   if (ending == ".srdf") {
     const std::string srdf = source.srdf.empty() ? "" : readTextFile(source.srdf.string());
     return sphereApproximationSrdf(self, name, srdf, source.srdf.string());
@@ -93,13 +104,14 @@ std::string textOf(const SphereModel& self, const std::filesystem::path& file,
   if (ending != ".urdf")
     throw UsageError("'" + file.string() + "' ends in '" + ending +
                      "'; allowed: .urdf, .yaml, .yml (cuRobo), .xrdf (cuMotion), .srdf, .json");
-  const std::string urdf = urdfOf(robot).string();
+  const std::string urdf = urdfOf(covered.handle).string();
   return spherizedUrdf(self, readTextFile(urdf), urdf);
 }
 
-void save(const SphereModel& self, const std::filesystem::path& file, const RobotHandle& robot) {
+void save(const SphereModel& self, const std::filesystem::path& file, const py::object& robot) {
+  const Covered covered = coveredOf(robot);
   const std::string text = watched(
-      nullptr, [&](const std::stop_token& stop) { return textOf(self, file, robot, stop); });
+      nullptr, [&](const std::stop_token& stop) { return textOf(self, file, covered, stop); });
   const py::gil_scoped_release others;
   writeText(file, text);
 }
@@ -129,7 +141,9 @@ void bindSphereModels(py::module_& module) {
   py::class_<SphereModel> type(
       module, "SphereModel",
       "Spheres for the links of a robot, as fast planners check them: made with proof, read and "
-      "judged. `model[link]` are those of a link (k, 4):\nx, y, z and radius (m), in its frame.");
+      "judged. `model[link]` are those of a link (k, 4):\nx, y, z and radius (m), in its frame. In "
+      "place of a Robot, all methods take a World, whose bodies take the place of links, in the "
+      "model frame;\nthose of a body that moves are in its own frame.");
   type.def(py::init(&modelOf), py::arg("links"), "`links`: spheres (k, 4) by the name of the link.")
       .def_static(
           "search", &search, py::arg("robot"), py::kw_only(), py::arg("spheres") = py::none(),
@@ -142,19 +156,22 @@ void bindSphereModels(py::module_& module) {
           "needs. Others as in\nEnclosingSpheresSearch; the result does not depend on `threads`. "
           "Takes seconds to minutes; Ctrl-C and `cancel` end it. Raises ArgumentError, and "
           "UsageError for fewer\nspheres than "
-          "links with geometry.")
+          "links with geometry, and for a World with planes.")
       .def_static("load", &load, py::arg("file"), py::arg("robot"),
                   "Reads spheres for a Robot: of `save`; .yaml of cuRobo; .xrdf of cuMotion; .srdf "
                   "with MoveIt's "
-                  "sphere approximations; .urdf with spheres alone. Raises InputError.")
+                  "sphere approximations; .urdf with spheres alone. For a World: .json of `save`, "
+                  "or a scene of spheres with the same bodies. Raises InputError.")
       .def("save", &save, py::arg("file"), py::arg("robot"),
            "Writes a .json; .yaml, .yml of cuRobo; .xrdf of cuMotion; .srdf, the robot's with "
            "these sphere "
-           "approximations; or .urdf, the robot's with these for `<collision>`.\nNumbers read back "
+           "approximations; or .urdf, the robot's with these for `<collision>`.\nOf a World: a "
+           ".json, or the "
+           "planning scene of these as .yaml, .yml or MoveIt's .scene. Numbers read back "
            "to the same. Raises UsageError for another ending and a file that cannot be written.")
       .def(
           "judge",
-          [](const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
+          [](const SphereModel& self, const py::object& robot, double tolerance, int mostSplits,
              int samples, unsigned threads, const Token& cancel) {
             return py::tuple(
                 py::cast(judge(self, robot, tolerance, mostSplits, samples, threads, cancel)));
@@ -162,8 +179,8 @@ void bindSphereModels(py::module_& module) {
           py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
           py::arg("most_splits") = judged.mostSplits, py::arg("samples") = judged.samples,
           py::arg("threads") = 0, py::arg("cancel") = py::none(),
-          "A LinkSphereReport for each link of a Robot with collision geometry; arguments as "
-          "outside_spheres.")
+          "A LinkSphereReport for each link of a Robot with collision geometry, or each body of a "
+          "World; arguments as outside_spheres.")
       .def_property_readonly(
           "links",
           [](const SphereModel& self) {

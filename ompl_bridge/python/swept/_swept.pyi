@@ -783,7 +783,7 @@ class ShapeModel:
     def __init__(self, links: Mapping[str, _Body]) -> None: ...
     @staticmethod
     def search(
-        robot: Robot,
+        robot: Union[Robot, World],
         kind: EnclosingKind,
         *,
         shapes: Optional[int] = ...,
@@ -793,11 +793,11 @@ class ShapeModel:
         cancel: Optional[CancellationToken] = ...,
     ) -> ShapeModel: ...
     @staticmethod
-    def load(file: _Path, robot: Robot) -> ShapeModel: ...
-    def save(self, file: _Path, robot: Robot) -> None: ...
+    def load(file: _Path, robot: Union[Robot, World]) -> ShapeModel: ...
+    def save(self, file: _Path, robot: Union[Robot, World]) -> None: ...
     def judge(
         self,
-        robot: Robot,
+        robot: Union[Robot, World],
         *,
         tolerance: float = ...,
         most_splits: int = ...,
@@ -825,7 +825,7 @@ class SphereModel:
     def __init__(self, links: Mapping[str, _Table]) -> None: ...
     @staticmethod
     def search(
-        robot: Robot,
+        robot: Union[Robot, World],
         *,
         spheres: Optional[int] = ...,
         excess: Optional[float] = ...,
@@ -837,11 +837,11 @@ class SphereModel:
         cancel: Optional[CancellationToken] = ...,
     ) -> SphereModel: ...
     @staticmethod
-    def load(file: _Path, robot: Robot) -> SphereModel: ...
-    def save(self, file: _Path, robot: Robot) -> None: ...
+    def load(file: _Path, robot: Union[Robot, World]) -> SphereModel: ...
+    def save(self, file: _Path, robot: Union[Robot, World]) -> None: ...
     def judge(
         self,
-        robot: Robot,
+        robot: Union[Robot, World],
         *,
         tolerance: float = ...,
         most_splits: int = ...,

@@ -25,23 +25,25 @@ void addCoverOptions(CLI::App& app, Arguments& args) {
           ->check(within(1e-4, 10.0, "between 0.0001 and 10 m"))
           ->excludes(spheres);
   CLI::Option* check =
-      app.add_option("--check", args.cover.check,
-                     "judges the model in this file instead: .json of this command or for VAMP, "
-                     ".yaml of cuRobo, .xrdf, .srdf of MoveIt, or a .urdf")
+      app.add_option(
+             "--check", args.cover.check,
+             "judges the model in this file instead: .json of this command or for VAMP, "
+             ".yaml of cuRobo, .xrdf, .srdf of MoveIt, or a .urdf; of a scene: .json or a scene")
           ->type_name("FILE")
           ->excludes(spheres)
           ->excludes(excess)
           ->excludes(shape);
   app.add_option("-o,--output", args.output,
                  "file to write: .urdf with the shapes for <collision> (VAMP takes spheres), .yaml "
-                 "of cuRobo, .xrdf, .srdf of MoveIt, or .json with the figures")
+                 "of cuRobo, .xrdf, .srdf of MoveIt, or .json with the figures; of a scene: .yaml, "
+                 ".scene or .json")
       ->type_name("FILE")
       ->excludes(check);
   app.add_option(
          "--format", args.cover.format,
          "of FILE, whatever it ends in; vamp: the .json for VAMP's generator, with its URDF "
-         "beside it")
-      ->check(CLI::IsMember({"urdf", "vamp", "curobo", "xrdf", "srdf", "json"}))
+         "beside it; of a scene: scene or json")
+      ->check(CLI::IsMember({"urdf", "vamp", "curobo", "xrdf", "srdf", "json", "scene"}))
       ->excludes(check);
   app.add_flag("--visual", args.cover.visual, "around the <visual> geometry, not <collision>");
   addHtmlOption(app, args);
@@ -64,7 +66,8 @@ const Command kCoverCommand{
     .notes = [] {
       return std::string(
           "ROBOT may also be a mesh (.stl, .obj, .ply, .dae, .off, .gltf, .glb), in "
-          "metres: the only link of a robot.\n");
+          "metres: the only link of a robot.\nOr a planning scene (.yaml, .scene): its bodies "
+          "take the place of links.\n");
     }};
 
 }  // namespace swept

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include "input/attach.hpp"
 #include "input/clock.hpp"
 #include "input/clouds.hpp"
+#include "input/load_options.hpp"
 #include "input/robot_loading.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
@@ -25,20 +25,6 @@ namespace swept {
 namespace {
 
 constexpr double kLeastAccuracy = 1e-5;  // m
-
-std::vector<PackageFolder> packageFolders(const Arguments& args) {
-  std::vector<PackageFolder> folders;
-  for (const std::string& text : args.packages) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw UsageError("--package '" + text + "': expected NAME=DIR");
-    PackageFolder folder{.name = text.substr(0, equals), .folder = text.substr(equals + 1)};
-    if (!std::filesystem::is_directory(folder.folder))
-      throw UsageError("--package " + folder.name + ": no folder '" + folder.folder.string() + "'");
-    folders.push_back(std::move(folder));
-  }
-  return folders;
-}
 
 std::string standingContactText(const Checker& checker) {
   std::vector<std::string> pairs;
@@ -71,14 +57,7 @@ bool leavesOutDefaultContacts(const Arguments& args) {
 }
 
 Model loadModel(const Arguments& args, Warnings& warnings) {
-  LoadOptions options{
-      .packages = packageFolders(args),
-      .modelFrame = {},
-      .warn = [&](const std::string& line) { warnings(line); },
-      .everyWarning = args.verbose,
-      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); },
-      .progress = {},
-      .cache = cacheFolder()};
+  LoadOptions options = loadOptionsOf(args, warnings);
   Model model;
   model.srdf = chooseSrdf(args);
   // Kept for who asks what the robot looks like: a pipe cannot be read again.

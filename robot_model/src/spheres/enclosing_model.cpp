@@ -7,29 +7,26 @@
 #include <stdexcept>
 #include <utility>
 
+#include "spheres/named_bodies.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/sphere_model.hpp"
-#include "swept/robot_model/usage_error.hpp"
 #include "threads/for_each_index.hpp"
 
 namespace swept {
 namespace {
 
-/// Links with geometry, and how many spheres each has.
+/// Bodies (links), and how many spheres each has.
 class SphereShares {
  public:
-  SphereShares(const Robot& robot, const SphereModelOptions& options) : options_(options) {
-    for (const Link& link : robot.links())
-      if (!link.collision.empty()) links_.push_back(&link);
+  SphereShares(std::span<const NamedBody> bodies, const SphereModelOptions& options)
+      : options_(options), links_(bodies) {
     searches_.resize(links_.size());
     found_.resize(links_.size());
     forLinks([&](std::size_t i) {
       searches_[i] =
-          std::make_unique<EnclosingSpheresSearch>(bodyOf(*links_[i]), options_.search, isOver_);
+          std::make_unique<EnclosingSpheresSearch>(links_[i].shapes, options_.search, isOver_);
     });
   }
-
-  std::size_t linkCount() const { return links_.size(); }
 
   void findWithin(double excess) {
     forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, isOver_); });
@@ -46,7 +43,7 @@ class SphereShares {
   SphereModel model() && {
     SphereModel model;
     for (std::size_t i = 0; i < links_.size(); ++i)
-      model.links.push_back({links_[i]->name, std::move(found_[i].spheres)});
+      model.links.push_back({links_[i].name, std::move(found_[i].spheres)});
     return model;
   }
 
@@ -63,8 +60,8 @@ class SphereShares {
     std::vector<int> best(links_.size(), 1);
     double low = 0.0;
     double high = 0.0;
-    for (const Link* link : links_)
-      for (const PosedShape& posed : bodyOf(*link))
+    for (const NamedBody& link : links_)
+      for (const PosedShape& posed : link.shapes)
         high = std::max(high, 2.0 * boundingSphere(posed.shape).radius);
     for (int step = 0; step < 12 && high > 0.0; ++step) {
       const double reach =
@@ -148,7 +145,7 @@ class SphereShares {
 
   const SphereModelOptions& options_;
   StopQuestion isOver_ = [this] { return options_.stop.stop_requested(); };
-  std::vector<const Link*> links_;
+  std::span<const NamedBody> links_;
   std::vector<std::unique_ptr<EnclosingSpheresSearch>> searches_;
   std::vector<EnclosingSpheres> found_;
 };
@@ -166,16 +163,17 @@ std::size_t SphereModel::count() const {
   return count;
 }
 
-std::vector<PosedShape> bodyOf(const Link& link) {
-  std::vector<PosedShape> body;
-  for (const CollisionGeometry& geometry : link.collision)
-    body.push_back({geometry.shape, geometry.link_from_shape});
-  return body;
+SphereModel enclosingSphereModel(const Robot& robot, const SphereModelOptions& options) {
+  const std::vector<NamedBody> bodies = bodiesOf(robot);
+  if (!options.excess && options.spheres.value_or(0) > 0)
+    detail::requireEnough(options.spheres, "spheres", robot, bodies.size());
+  return enclosingSphereModel(bodies, options);
 }
 
-SphereModel enclosingSphereModel(const Robot& robot, const SphereModelOptions& options) {
+SphereModel enclosingSphereModel(std::span<const NamedBody> bodies,
+                                 const SphereModelOptions& options) {
   if (detail::inForeignEnvironment())
-    return inDefaultEnvironment([&] { return enclosingSphereModel(robot, options); });
+    return inDefaultEnvironment([&] { return enclosingSphereModel(bodies, options); });
   if (options.spheres.has_value() == options.excess.has_value())
     throw std::invalid_argument("a sphere model takes a number of spheres or an excess");
   if (options.spheres && *options.spheres < 1)
@@ -184,33 +182,35 @@ SphereModel enclosingSphereModel(const Robot& robot, const SphereModelOptions& o
   if (options.excess && !(*options.excess > 0.0))
     throw std::invalid_argument("a sphere model has an excess of " +
                                 std::to_string(*options.excess) + "; allowed: above 0");
-  SphereShares shares(robot, options);
-  if (options.excess) {
+  detail::requireBodies(bodies);
+  detail::requireEnough(options.spheres, "spheres", bodies.size());
+  SphereShares shares(bodies, options);
+  if (options.excess)
     shares.findWithin(*options.excess);
-  } else {
-    if (*options.spheres < static_cast<int>(shares.linkCount()))
-      throw UsageError(std::to_string(*options.spheres) + " spheres are too few for robot '" +
-                       robot.name() + "': " + std::to_string(shares.linkCount()) +
-                       " links have collision geometry");
+  else
     shares.findAtMost(*options.spheres);
-  }
   return std::move(shares).model();
 }
 
 std::vector<LinkSphereReport> judgeSphereModel(const Robot& robot, const SphereModel& model,
                                                const OutsideSpheresOptions& options,
                                                unsigned threads) {
+  return judgeSphereModel(bodiesOf(robot), model, options, threads);
+}
+
+std::vector<LinkSphereReport> judgeSphereModel(std::span<const NamedBody> bodies,
+                                               const SphereModel& model,
+                                               const OutsideSpheresOptions& options,
+                                               unsigned threads) {
   if (detail::inForeignEnvironment())
-    return inDefaultEnvironment([&] { return judgeSphereModel(robot, model, options, threads); });
-  std::vector<const Link*> links;
-  for (const Link& link : robot.links())
-    if (!link.collision.empty()) links.push_back(&link);
-  std::vector<LinkSphereReport> reports(links.size());
-  detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
+    return inDefaultEnvironment([&] { return judgeSphereModel(bodies, model, options, threads); });
+  detail::requireBodies(bodies);
+  std::vector<LinkSphereReport> reports(bodies.size());
+  detail::forEachIndex(bodies.size(), threads, [&](std::size_t i) {
     if (options.stop && options.stop()) throw SearchStopped();
     LinkSphereReport& report = reports[i];
-    report.link = links[i]->name;
-    const std::vector<PosedShape> body = bodyOf(*links[i]);
+    report.link = bodies[i].name;
+    const std::vector<PosedShape>& body = bodies[i].shapes;
     const LinkSpheres* own = model.find(report.link);
     std::vector<EnclosingSphere> spheres;
     if (own != nullptr) spheres = own->spheres;

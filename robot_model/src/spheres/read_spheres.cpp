@@ -9,6 +9,7 @@
 #include "io/xml.hpp"
 #include "io/yaml.hpp"
 #include "spheres/link_names.hpp"
+#include "spheres/model_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/sphere_model.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -41,11 +42,8 @@ SphereModel fromJson(const std::string& file, const Robot& robot, const LoadOpti
     if (const std::string unknown = unknownLink(robot, link); !unknown.empty())
       name.fail("is " + unknown);
     std::vector<EnclosingSphere>& spheres = spheresOf(model, link);
-    for (const JsonValue& sphere : entry.at("spheres").elements()) {
-      const std::vector<JsonValue> numbers = sphere.elements(4);
-      spheres.push_back({{numbers[0].number(), numbers[1].number(), numbers[2].number()},
-                         numbers[3].notNegative()});
-    }
+    for (const JsonValue& sphere : entry.at("spheres").elements())
+      spheres.push_back(detail::sphereOf(sphere));
   }
   return model;
 }

@@ -9,28 +9,25 @@
 #include <stdexcept>
 #include <utility>
 
+#include "spheres/named_bodies.hpp"
 #include "swept/core/floating_point_environment.hpp"
-#include "swept/robot_model/usage_error.hpp"
 #include "threads/for_each_index.hpp"
 
 namespace swept {
 namespace {
 
-/// Links with geometry, and how many shapes each has: a search has the answer for every number.
+/// Bodies (links), and how many shapes each has: a search has the answer for every number.
 class ShapeShares {
  public:
-  ShapeShares(const Robot& robot, const ShapeModelOptions& options) : options_(options) {
-    for (const Link& link : robot.links())
-      if (!link.collision.empty()) links_.push_back(&link);
+  ShapeShares(std::span<const NamedBody> bodies, const ShapeModelOptions& options)
+      : options_(options), links_(bodies) {
     searches_.resize(links_.size());
     found_.resize(links_.size());
     forLinks([&](std::size_t i) {
-      searches_[i] = std::make_unique<EnclosingShapesSearch>(bodyOf(*links_[i]), options_.kind,
+      searches_[i] = std::make_unique<EnclosingShapesSearch>(links_[i].shapes, options_.kind,
                                                              options_.search, isOver_);
     });
   }
-
-  std::size_t linkCount() const { return links_.size(); }
 
   void findWithin(double excess) {
     forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, isOver_); });
@@ -44,7 +41,7 @@ class ShapeShares {
   ShapeModel model() && {
     ShapeModel model;
     for (std::size_t i = 0; i < links_.size(); ++i)
-      model.links.push_back({links_[i]->name, std::move(found_[i].shapes)});
+      model.links.push_back({links_[i].name, std::move(found_[i].shapes)});
     return model;
   }
 
@@ -89,7 +86,7 @@ class ShapeShares {
 
   const ShapeModelOptions& options_;
   StopQuestion isOver_ = [this] { return options_.stop.stop_requested(); };
-  std::vector<const Link*> links_;
+  std::span<const NamedBody> links_;
   std::vector<std::unique_ptr<EnclosingShapesSearch>> searches_;
   std::vector<EnclosingShapes> found_;
 };
@@ -132,8 +129,16 @@ std::optional<SphereModel> sphereModelOf(const ShapeModel& model) {
 }
 
 ShapeModel enclosingShapeModel(const Robot& robot, const ShapeModelOptions& options) {
+  const std::vector<NamedBody> bodies = bodiesOf(robot);
+  if (!options.excess && options.shapes.value_or(0) > 0)
+    detail::requireEnough(options.shapes, "shapes", robot, bodies.size());
+  return enclosingShapeModel(bodies, options);
+}
+
+ShapeModel enclosingShapeModel(std::span<const NamedBody> bodies,
+                               const ShapeModelOptions& options) {
   if (detail::inForeignEnvironment())
-    return inDefaultEnvironment([&] { return enclosingShapeModel(robot, options); });
+    return inDefaultEnvironment([&] { return enclosingShapeModel(bodies, options); });
   if (options.shapes.has_value() == options.excess.has_value())
     throw std::invalid_argument("a model takes a number of shapes or an excess");
   if (options.shapes && *options.shapes < 1)
@@ -142,13 +147,9 @@ ShapeModel enclosingShapeModel(const Robot& robot, const ShapeModelOptions& opti
   if (options.excess && !(*options.excess > 0.0))
     throw std::invalid_argument("a model has an excess of " + std::to_string(*options.excess) +
                                 "; allowed: above 0");
-  const auto isSolid = [](const Link& link) { return !link.collision.empty(); };
-  const auto links = std::ranges::count_if(robot.links(), isSolid);
-  if (options.shapes && *options.shapes < links)
-    throw UsageError(std::to_string(*options.shapes) + " shapes are too few for robot '" +
-                     robot.name() + "': " + std::to_string(links) +
-                     " links have collision geometry");
-  ShapeShares shares(robot, options);
+  detail::requireBodies(bodies);
+  detail::requireEnough(options.shapes, "shapes", bodies.size());
+  ShapeShares shares(bodies, options);
   if (options.excess)
     shares.findWithin(*options.excess);
   else
@@ -159,17 +160,22 @@ ShapeModel enclosingShapeModel(const Robot& robot, const ShapeModelOptions& opti
 std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeModel& model,
                                               const OutsideSpheresOptions& options,
                                               unsigned threads) {
+  return judgeShapeModel(bodiesOf(robot), model, options, threads);
+}
+
+std::vector<LinkSphereReport> judgeShapeModel(std::span<const NamedBody> bodies,
+                                              const ShapeModel& model,
+                                              const OutsideSpheresOptions& options,
+                                              unsigned threads) {
   if (detail::inForeignEnvironment())
-    return inDefaultEnvironment([&] { return judgeShapeModel(robot, model, options, threads); });
-  std::vector<const Link*> links;
-  for (const Link& link : robot.links())
-    if (!link.collision.empty()) links.push_back(&link);
-  std::vector<LinkSphereReport> reports(links.size());
-  detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
+    return inDefaultEnvironment([&] { return judgeShapeModel(bodies, model, options, threads); });
+  detail::requireBodies(bodies);
+  std::vector<LinkSphereReport> reports(bodies.size());
+  detail::forEachIndex(bodies.size(), threads, [&](std::size_t i) {
     if (options.stop && options.stop()) throw SearchStopped();
     LinkSphereReport& report = reports[i];
-    report.link = links[i]->name;
-    const std::vector<PosedShape> body = bodyOf(*links[i]);
+    report.link = bodies[i].name;
+    const std::vector<PosedShape>& body = bodies[i].shapes;
     std::vector<PosedShape> shapes;
     if (const LinkShapes* own = model.find(report.link)) shapes = own->shapes;
     report.spheres = shapes.size();

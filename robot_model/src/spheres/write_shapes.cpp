@@ -3,13 +3,13 @@
 
 #include <cctype>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/xml.hpp"
 #include "output/text_output.hpp"
+#include "spheres/model_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/shape_model.hpp"
 
@@ -62,35 +62,6 @@ std::string objText(const ConvexHull& hull) {
   return text;
 }
 
-[[noreturn]] void refuseShape() {
-  throw std::invalid_argument(
-      "a model to be written has a shape that is neither sphere, box, cylinder, capsule nor hull");
-}
-
-Json shapeJson(const PosedShape& posed) {
-  Json json;
-  if (const auto* sphere = std::get_if<Sphere>(&posed.shape)) {
-    json = {{"type", "sphere"}, {"radius", sphere->radius}};
-  } else if (const auto* box = std::get_if<Box>(&posed.shape)) {
-    json = {{"type", "box"}, {"size", toJson(Vector3d(2.0 * box->halfExtents))}};
-  } else if (const auto* capsule = std::get_if<Capsule>(&posed.shape)) {
-    json = {
-        {"type", "capsule"}, {"radius", capsule->radius}, {"length", 2.0 * capsule->halfLength}};
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&posed.shape)) {
-    json = {
-        {"type", "cylinder"}, {"radius", cylinder->radius}, {"length", 2.0 * cylinder->halfLength}};
-  } else if (const auto* hull = std::get_if<ConvexHull>(&posed.shape)) {
-    json = {{"type", "convex"}, {"vertices", Json::array()}};
-    for (const Vector3d& vertex : hull->vertices()) json["vertices"].push_back(toJson(vertex));
-  } else {
-    refuseShape();
-  }
-  const Vector3d place = posed.body_from_shape.translation();
-  const Eigen::Quaterniond turn(posed.body_from_shape.linear());
-  json["pose"] = {place.x(), place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w()};
-  return json;
-}
-
 /// A name of a C++ struct.
 std::string structName(const std::string& name) {
   std::string result;
@@ -137,7 +108,7 @@ ShapedUrdf urdfWithShapes(const ShapeModel& model, const std::string& urdfText,
             ->SetAttribute("filename", file.c_str());
         shaped.meshes.emplace_back(file, objText(*hull));
       } else {
-        refuseShape();
+        detail::refuseShape();
       }
     }
   }
@@ -152,14 +123,8 @@ std::string shapeModelJson(const ShapeModel& model, const std::string& robot,
   Json json = {{"robot", robot}, {"shapes", model.count()}, {"links", Json::array()}};
   for (const LinkShapes& link : model.links) {
     Json entry = {{"link", link.link}, {"shapes", Json::array()}};
-    for (const PosedShape& shape : link.shapes) entry["shapes"].push_back(shapeJson(shape));
-    for (const LinkSphereReport& report : reports) {
-      if (report.link != link.link) continue;
-      entry["largest_excess"] = finiteOrNull(report.excess.largest);
-      entry["largest_excess_seen"] = finiteOrNull(report.excess.largestSeen);
-      entry["mean_excess"] = finiteOrNull(report.excess.mean);
-      entry["volume_ratio"] = finiteOrNull(report.excess.volumeRatio);
-    }
+    for (const PosedShape& shape : link.shapes) entry["shapes"].push_back(detail::shapeJson(shape));
+    detail::addFigures(entry, link.link, reports);
     json["links"].push_back(std::move(entry));
   }
   return dumped(json) + "\n";

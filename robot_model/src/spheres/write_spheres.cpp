@@ -5,6 +5,7 @@
 
 #include "io/xml.hpp"
 #include "output/text_output.hpp"
+#include "spheres/model_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/sphere_model.hpp"
 
@@ -29,10 +30,6 @@ void addCollision(Element& link, const EnclosingSphere& sphere) {
   collision->InsertNewChildElement("geometry")
       ->InsertNewChildElement("sphere")
       ->SetAttribute("radius", exactNumber(sphere.radius).c_str());
-}
-
-Json sphereJson(const EnclosingSphere& sphere) {
-  return {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius};
 }
 
 }  // namespace
@@ -121,14 +118,8 @@ std::string sphereModelJson(const SphereModel& model, const std::string& robot,
   for (const LinkSpheres& link : model.links) {
     Json entry = {{"link", link.link}, {"spheres", Json::array()}};
     for (const EnclosingSphere& sphere : link.spheres)
-      entry["spheres"].push_back(sphereJson(sphere));
-    for (const LinkSphereReport& report : reports) {
-      if (report.link != link.link) continue;
-      entry["largest_excess"] = finiteOrNull(report.excess.largest);
-      entry["largest_excess_seen"] = finiteOrNull(report.excess.largestSeen);
-      entry["mean_excess"] = finiteOrNull(report.excess.mean);
-      entry["volume_ratio"] = finiteOrNull(report.excess.volumeRatio);
-    }
+      entry["spheres"].push_back(detail::sphereJson(sphere));
+    detail::addFigures(entry, link.link, reports);
     json["links"].push_back(std::move(entry));
   }
   return dumped(json) + "\n";

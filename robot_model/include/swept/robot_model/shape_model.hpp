@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -16,16 +17,17 @@
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/sphere_model.hpp"
 
-/// Models of a robot that consist of few capsules, boxes or convex hulls, beside those of spheres.
+/// Models of a robot or a scene that consist of few capsules, boxes or convex hulls, beside those
+/// of spheres.
 namespace swept {
 
-/// The shapes of one link.
+/// The shapes of one link, or of another body.
 struct LinkShapes {
   std::string link;                ///< its name
   std::vector<PosedShape> shapes;  ///< in the link's frame
 };
 
-/// Shapes for the links of a robot.
+/// Shapes for the links of a robot, or for other bodies.
 struct ShapeModel {
   std::vector<LinkShapes> links;  ///< each link once
   /// Null if it has none for the link.
@@ -55,10 +57,17 @@ struct ShapeModelOptions {
 /// included (EnclosingShapes). Throws std::invalid_argument for options out of range, and
 /// UsageError if there are fewer shapes than links with geometry.
 ShapeModel enclosingShapeModel(const Robot& robot, const ShapeModelOptions& options);
+/// Shapes for each of the bodies, likewise. Throws for them as enclosingSphereModel().
+ShapeModel enclosingShapeModel(std::span<const NamedBody> bodies, const ShapeModelOptions& options);
 
 /// Judges each link with collision geometry, in the order of the robot. The excess is that of the
 /// shapes grown by `outside.upper` if that is above 0 (outsideShapes()).
 std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeModel& model,
+                                              const OutsideSpheresOptions& options = {},
+                                              unsigned threads = 0);
+/// Judges each of the bodies, in their order. Throws for them as enclosingSphereModel().
+std::vector<LinkSphereReport> judgeShapeModel(std::span<const NamedBody> bodies,
+                                              const ShapeModel& model,
                                               const OutsideSpheresOptions& options = {},
                                               unsigned threads = 0);
 
@@ -84,8 +93,9 @@ ShapedUrdf urdfWithShapes(const ShapeModel& model, const std::string& urdfText,
 
 /// `links`, each with `link`, the figures of its report, and `shapes`: `type` (`sphere`, `box`,
 /// `cylinder`, `capsule`, `convex`), `radius`, `length` (of a capsule between its centres), `size`
-/// (full), `vertices`, in m, and `pose` (x, y, z and a quaternion x, y, z, w) in the link's frame.
-/// `reports`: for each link of the model.
+/// (full), `vertices`, in m, `faces` (three indices of vertices, counterclockwise from outside),
+/// and `pose` (x, y, z and a quaternion x, y, z, w) in the link's frame. `reports`: for each link
+/// of the model.
 std::string shapeModelJson(const ShapeModel& model, const std::string& robot,
                            const std::vector<LinkSphereReport>& reports);
 

@@ -4,25 +4,41 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "swept/core/enclosing_spheres.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/world.hpp"
 
-/// Models of a robot that consist of spheres, as fast planners check them: made with proof, read
-/// and judged.
+/// Models of a robot or a scene that consist of spheres, as fast planners check them: made with
+/// proof, read and judged.
 namespace swept {
 
-/// The spheres of one link.
+/// A rigid body that a model contains: a link of a robot, a body of a scene, or any other.
+struct NamedBody {
+  std::string name;                ///< no other body of the model has it
+  std::vector<PosedShape> shapes;  ///< in the body's frame; at least one, no plane, no half-space
+};
+
+/// The collision geometry of a link, in its frame.
+std::vector<PosedShape> bodyOf(const Link& link);
+/// The links with collision geometry, in the order of the robot.
+std::vector<NamedBody> bodiesOf(const Robot& robot);
+/// The bodies with geometry, in the model frame, then the moving obstacles, each in its own frame.
+std::vector<NamedBody> bodiesOf(const World& world);
+
+/// The spheres of one link, or of another body.
 struct LinkSpheres {
   std::string link;                      ///< its name
   std::vector<EnclosingSphere> spheres;  ///< in the link's frame
 };
 
-/// Spheres for the links of a robot.
+/// Spheres for the links of a robot, or for other bodies.
 struct SphereModel {
   std::vector<LinkSpheres> links;  ///< each link once
   /// Null if it has none for the link.
@@ -30,9 +46,6 @@ struct SphereModel {
   /// Of all links.
   std::size_t count() const;
 };
-
-/// The collision geometry of a link, in its frame.
-std::vector<PosedShape> bodyOf(const Link& link);
 
 /// How a sphere model is searched for. Exactly one of `spheres` and `excess` is set.
 struct SphereModelOptions {
@@ -50,8 +63,13 @@ struct SphereModelOptions {
 /// std::invalid_argument for options out of range, and UsageError if there are fewer spheres than
 /// links with geometry.
 SphereModel enclosingSphereModel(const Robot& robot, const SphereModelOptions& options);
+/// Spheres for each of the bodies, likewise. Also throws UsageError for a body with a plane or a
+/// half-space, which nothing contains, and std::invalid_argument for one without shapes and for two
+/// of one name.
+SphereModel enclosingSphereModel(std::span<const NamedBody> bodies,
+                                 const SphereModelOptions& options);
 
-/// What is to be said about one link of a sphere model.
+/// What is to be said about one link of a sphere model, or another body.
 struct LinkSphereReport {
   std::string link;         ///< its name
   std::size_t spheres = 0;  ///< how many it has
@@ -61,6 +79,11 @@ struct LinkSphereReport {
 
 /// Judges each link with collision geometry, in the order of the robot.
 std::vector<LinkSphereReport> judgeSphereModel(const Robot& robot, const SphereModel& model,
+                                               const OutsideSpheresOptions& options = {},
+                                               unsigned threads = 0);
+/// Judges each of the bodies, in their order. Throws for them as enclosingSphereModel().
+std::vector<LinkSphereReport> judgeSphereModel(std::span<const NamedBody> bodies,
+                                               const SphereModel& model,
                                                const OutsideSpheresOptions& options = {},
                                                unsigned threads = 0);
 
