@@ -7,6 +7,7 @@
 
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/shape_model.hpp"
+#include "swept/robot_model/sphere_model.hpp"
 #include "swept/robot_model/world.hpp"
 
 /// Files of models whose shapes contain the bodies of a scene (bodiesOf(World)).
