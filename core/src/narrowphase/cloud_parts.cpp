@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 
 #include "bvh/any_near.hpp"
 #include "bvh/near_boxes.hpp"
+#include "bvh/node_ball.hpp"
 #include "bvh/wide_bvh.hpp"
 #include "geometry/error_model.hpp"
 
@@ -17,15 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Relative: more than the skew of a box's axes and the rounding of its half diagonal.
-constexpr double kBallOutward = 1.0 + 32.0 * 0x1p-24;
-
 CloudPart partAround(const WideNode& node, int lane) {
-  const OrientedBox box = node.box(lane);
-  const double squared = static_cast<double>(box.half[0]) * box.half[0] +
-                         static_cast<double>(box.half[1]) * box.half[1] +
-                         static_cast<double>(box.half[2]) * box.half[2];
-  return {box.center, std::sqrt(squared) * kBallOutward, node.child[lane]};
+  const NodeBall ball(node, lane);
+  return {ball.center, ball.radius, node.child[lane]};
 }
 
 }  // namespace
