@@ -61,6 +61,39 @@ class FieldWalk {
     return false;
   }
 
+  /// Tests balls inside the link against the field's shape, in the lane in which the link's centre
+  /// seems nearest to it. True: the walk is over.
+  bool probe(const SimdNode& node, const V3& middle, float within, const SimdBodyState& state,
+             const SimdHit& hit, std::uint32_t pair) {
+    const SimdField& field = model_.obstacles.fields[model_.obstacles.obstacles[hit.index].first];
+    const F8 near = set(within);
+    const F8 bounds = clearance(field, inFrame(field, middle, true), near, hit.lanes);
+    const Lanes lanes = hit.lanes & below(bounds, near);
+    if (lanes == 0) return false;
+    const int best = lowestLane(bounds, lanes);
+    const SimdModel::InnerBalls& probes = model_.probesOf[node.geometry];
+    for (std::int32_t i = probes.first; i < probes.first + probes.count; ++i) {
+      const SimdModel::Probes& eight = model_.probes[i];
+      const V3 x = placedAt(state, best, eight);
+      const F8 inside = load(eight.inside) - set(scratch_.rounding);
+      const F8 away = clearance(field, inFrame(field, x, true), inside, kAllLanes);
+      const Lanes deep = above(inside, set(0.0F)) & below(away, inside - set(0.25F * field.cell));
+      if (deep == 0) continue;
+      const int which = lowestLane(away - inside, deep);
+      Row at[3];
+      Row radii;
+      Row bound;
+      store3(x, at);
+      store(inside, radii);
+      store(away, bound);
+      const Row still[3] = {};
+      const MovingPoint center = pointOf(at, still, which);
+      if (!reaches(field, center, radii.lane[which], bound.lane[which] > 0.0F)) continue;
+      return claim(block_, pair, 1U << best, set3(center.x), radii.lane[which]);
+    }
+    return false;
+  }
+
   /// Answers the postponed queries. `divide(node, hit)` visits the balls below a node whose query
   /// failed, and may postpone more. True: the walk is over.
   template <typename Divide>

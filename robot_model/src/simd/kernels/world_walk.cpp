@@ -235,6 +235,9 @@ class WorldWalk {
       }
       const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
       if (obstacle.kind == ObstacleKind::Field) {
+        if (isRoot && probes_ && block_.stopAtContact &&
+            probeField(node, segment.x, hit, static_cast<std::uint32_t>(pair)))
+          return true;
         if (fields_.visit(node, segment, radius, hit, static_cast<std::uint32_t>(pair), divides,
                           node.beyond > enough_))
           return true;
@@ -270,6 +273,7 @@ class WorldWalk {
   /// Tests balls inside the link, in the lane in which it is deepest in the obstacle.
   bool probe(const SimdNode& node, const V3& middle, const SimdHit& hit, std::uint32_t pair) {
     const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
+    if (obstacle.kind == ObstacleKind::Field) return probeField(node, middle, hit, pair);
     if (obstacle.near != NearProof::Inside && obstacle.near != NearProof::Distance) return false;
     const F8 squared = squaredDistance(model_.obstacles, obstacle, middle);
     const float near = kProbeShare * node.radius;
@@ -301,6 +305,10 @@ class WorldWalk {
       return claim(block_, pair, 1U << best, set3(point), radii.lane[which]);
     }
     return false;
+  }
+
+  bool probeField(const SimdNode& node, const V3& middle, const SimdHit& hit, std::uint32_t pair) {
+    return fields_.probe(node, middle, kProbeShare * node.radius, *state_, hit, pair);
   }
 
   /// At a middle, the centre is so near that the obstacle reaches into the link.
