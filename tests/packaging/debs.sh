@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #   tests/packaging/debs.sh [BUILD]
-# Builds the .deb packages in BUILD (build/deb, which is configured first), looks at what is in them, and builds and runs
-# the core's program against the core's packages alone, unpacked. Needs dpkg-dev and file; lintian judges the packages
-# where it is installed.
+# Builds the .deb packages in BUILD (build/deb, which is configured first), looks at what is in them, builds and runs
+# the core's program against the core's packages alone, unpacked, and runs an example in Python. Needs dpkg-dev and file;
+# lintian judges the packages where it is installed.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 root="$(cd "$here/../.." && pwd)"
@@ -54,12 +54,10 @@ expect_depends libswept-pages-dev 'libswept-robot-model-dev' ompl
 expect_depends libswept-ompl-bridge0.1 'libompl16'
 expect_depends libswept-ompl-bridge-dev 'libompl-dev'
 expect_depends swept 'libswept-ompl-bridge0.1' 'dev'
-if compgen -G "$debs/python3-swept_*.deb" >/dev/null; then
-  expect_depends python3-swept 'python3-numpy'
-  expect_depends python3-swept 'libswept-ompl-bridge0.1' 'dev'
-  expect_file python3-swept 'lib/python3/dist-packages/swept/_swept\.cpython.*\.so'
-  expect_file python3-swept 'lib/python3/dist-packages/swept/py\.typed'
-fi
+expect_depends python3-swept 'python3-numpy'
+expect_depends python3-swept 'libswept-ompl-bridge0.1' 'dev'
+expect_file python3-swept 'lib/python3/dist-packages/swept/_swept\.cpython.*\.so'
+expect_file python3-swept 'lib/python3/dist-packages/swept/py\.typed'
 expect_file libswept-core0.1 'libswept_core\.so\.0\.1 -> libswept_core\.so\.0\.1\.'
 expect_file libswept-core-dev 'libswept_core\.so -> libswept_core\.so\.0\.1'
 expect_file libswept-core-dev 'cmake/swept/sweptConfig\.cmake'
@@ -85,6 +83,17 @@ for package in libswept-core0.1 libswept-core-dev; do dpkg-deb -x "$debs/$packag
 cmake -G Ninja -S "$here/core" -B "$temporary/core" -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$temporary/root/usr"
 cmake --build "$temporary/core"
 "$temporary/core/distance" || fail "the core's answers are wrong"
+
+# An example in Python, with the libraries of the packages.
+for package in libswept-{core,robot-model,proofs,pages,ompl-bridge}0.1 python3-swept; do
+  dpkg-deb -x "$debs/$package"_*.deb "$temporary/python"
+done
+libraries="$(dirname "$(compgen -G "$temporary/python/usr/lib/*/libswept_core.so.0.1")")"
+python="$temporary/python/usr/lib/python3/dist-packages"
+LD_LIBRARY_PATH="$libraries" PYTHONPATH="$python" /usr/bin/python3 -B "$root/planners_demo/examples/python/04_batch.py" \
+  "$root/models" || fail "python3-swept has wrong answers"
+LD_LIBRARY_PATH="$libraries" ldd "$python"/swept/_swept.*.so | grep -F "$libraries/libswept_ompl_bridge" >/dev/null ||
+  fail "python3-swept has another library than the packages have"
 
 # README.md says what is left out, and why.
 if command -v lintian >/dev/null; then
