@@ -317,6 +317,16 @@ case_windows_options() {
   [[ ! -e "$none" ]] || fail "windows.sh makes a folder for what it refuses"
 }
 
+case_wheel_options() {
+  local wheel="$here/wheel.sh" none="$temporary/none"
+  refuses 'error: usage: wheel.sh FOLDER [PYTHON]...' "$wheel"
+  refuses 'error: usage: wheel.sh FOLDER [PYTHON]...' "$wheel" --help
+  mkdir "$temporary/programs"
+  ln -s "$(command -v bash)" "$(command -v dirname)" "$temporary/programs"
+  refuses 'error: no patchelf; install it first' env PATH="$temporary/programs" bash "$wheel" "$none"
+  [[ ! -e "$none" ]] || fail "wheel.sh makes a folder for what it refuses"
+}
+
 # What .ci/nightly refuses before it installs anything, and what it would install where.
 case_ci_options() {
   local all='error: usage: .ci/nightly WHAT, where WHAT is one of: arm asan clang fuzz tsan'

@@ -49,7 +49,7 @@ configure() {
 }
 
 cases=("$@")
-if ((${#cases[@]} == 0)); then cases=(files core requests full proofs pages pkg_config flags program manual bare_options arm_options wasm_options windows_options ci_options tree); fi
+if ((${#cases[@]} == 0)); then cases=(files core requests full proofs pages pkg_config flags program manual bare_options arm_options wasm_options windows_options wheel_options ci_options tree); fi
 for name in "${cases[@]}"; do
   if ! declare -F "case_$name" >/dev/null; then
     echo "error: no case '$name'; there are $(declare -F | sed -n 's/declare -f case_//p' | xargs)" >&2
