@@ -48,16 +48,18 @@ std::string expectation(const char* argument, const std::string& shape) {
                           Py_TYPE(value.ptr())->tp_name);
 }
 
-/// Compares exponents: as fast as memory, where comparisons of floats would be ten times slower.
+/// An exponent of ones, that of infinities and NaN, carries into the sign's place where one is
+/// added. Sums and bits are as fast as memory on every processor; comparisons of floats, and of
+/// integers of 64 bits without SSE4, take several times as long.
 bool allFinite(const double* values, std::size_t count) {
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
-  std::uint64_t found = 0;
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000, kOne = std::uint64_t{1} << 52U;
+  std::uint64_t carries = 0;
   for (std::size_t i = 0; i < count; ++i) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, values + i, sizeof bits);
-    found |= static_cast<std::uint64_t>((bits & kExponent) == kExponent);
+    carries |= (bits & kExponent) + kOne;
   }
-  return found == 0;
+  return (carries >> 63U) == 0;
 }
 
 [[noreturn]] void refuseValue(const double* values, std::size_t columns, bool isVector,
