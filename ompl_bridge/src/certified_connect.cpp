@@ -10,6 +10,7 @@
 
 #include "constraint_steer.hpp"
 #include "default_range.hpp"
+#include "reach_metric.hpp"
 #include "spread_sampler.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
@@ -25,7 +26,11 @@ constexpr std::size_t kStart = 0, kGoal = 1;
 
 /// The radius of a node whose extension was refused, in ranges; what each later answer changes it
 /// by; and the least one.
-constexpr double kFirstRadius = 4.0, kRadiusChange = 1e-4, kLeastRadius = 1.0;
+constexpr double kFirstRadius = 3.0, kRadiusChange = 1e-4, kLeastRadius = 1.0;
+
+/// Samples are from a box around a start and a goal, which is wider by so many ranges on each side,
+/// and by so many more with each sample. In the end it is all of the space.
+constexpr double kFirstMargin = 0.5, kMarginGrowth = 0.015;
 
 /// The other tree takes its turn unless it has so many times the nodes.
 constexpr std::size_t kBalance = 2;
@@ -47,7 +52,7 @@ CertifiedConnect::CertifiedConnect(const ob::SpaceInformationPtr& si)
   trees_[kStart].start = true;
   for (Tree& tree : trees_)
     tree.nodes.setDistanceFunction(
-        [this](const Node* a, const Node* b) { return si_->distance(a->state, b->state); });
+        [this](const Node* a, const Node* b) { return metric_->distance(a->state, b->state); });
   sample_.state = si_->allocState();
   reached_.state = si_->allocState();
 }
@@ -69,6 +74,11 @@ void CertifiedConnect::setup() {
   }
   Planner::setup();
   if (range_ <= 0.0) range_ = detail::defaultRange(*si_);
+  // The trees keep the metric that they have grown with.
+  if (nodes_.empty()) {
+    metric_ = std::make_unique<detail::ReachMetric>(*si_);
+    for (Tree& tree : trees_) tree.nodes.setJointFactors(metric_->jointFactors());
+  }
   provesEnds_ = dynamic_cast<CertifiedMotionValidator*>(si_->getMotionValidator().get()) != nullptr;
 }
 
@@ -78,10 +88,14 @@ void CertifiedConnect::clear() {
 }
 
 void CertifiedConnect::restart() {
-  for (Tree& tree : trees_) tree.nodes.clear();
+  for (Tree& tree : trees_) {
+    tree.nodes.clear();
+    tree.roots.clear();
+  }
   for (const Node& node : nodes_) si_->freeState(node.state);
   nodes_.clear();
   sampler_.reset();
+  samples_ = 0;
   turn_ = 0;
   meeting_ = {};
 }
@@ -92,6 +106,7 @@ CertifiedConnect::Node* CertifiedConnect::add(Tree& tree, const ob::State* state
   node.state = si_->cloneState(state);
   node.parent = parent;
   tree.nodes.add(&node);
+  if (parent == nullptr) tree.roots.push_back(node.state);
   return &node;
 }
 
@@ -131,24 +146,36 @@ bool CertifiedConnect::takeGoals(const ob::PlannerTerminationCondition& ptc, std
 }
 
 /// From a node towards the sample. Null: the constraints allow no step that comes nearer.
-const ob::State* CertifiedConnect::stepTowards(const Node& near, double distance) {
+const ob::State* CertifiedConnect::stepTowards(const Node& near) {
   if (steer_ != nullptr) {
     return steer_->step(near.state, sample_.state, range_, reached_.state) ? reached_.state
                                                                            : nullptr;
   }
+  const double distance = si_->distance(near.state, sample_.state);
   if (!(distance > range_)) return sample_.state;
   si_->getStateSpace()->interpolate(near.state, sample_.state, range_ / distance, reached_.state);
   return reached_.state;
 }
 
+/// Around each pair of a start and a goal in turns.
+void CertifiedConnect::sample() {
+  const std::vector<const ob::State*>& starts = trees_[kStart].roots;
+  const std::vector<const ob::State*>& goals = trees_[kGoal].roots;
+  const std::size_t pair = samples_ % (starts.size() * goals.size());
+  const double margin = kFirstMargin + kMarginGrowth * static_cast<double>(samples_);
+  sampler_->sampleAround(starts[pair % starts.size()], goals[pair / starts.size()], margin * range_,
+                         sample_.state);
+  ++samples_;
+}
+
 /// A step towards the next sample. Null: the sample is not taken, or the way is not free.
 CertifiedConnect::Node* CertifiedConnect::extend(Tree& tree) {
-  sampler_->sample(sample_.state);
+  sample();
   if (steer_ != nullptr && !steer_->project(sample_.state)) return nullptr;
   Node* const near = tree.nodes.nearest(&sample_);
-  const double distance = si_->distance(near->state, sample_.state);
+  const double distance = metric_->distance(near->state, sample_.state);
   if (distance > near->radius || distance == 0.0) return nullptr;
-  const ob::State* const to = stepTowards(*near, distance);
+  const ob::State* const to = stepTowards(*near);
   const bool wasRefused = std::isfinite(near->radius);
   if (to != nullptr && isFree(tree, near->state, to)) {
     if (wasRefused) near->radius *= 1.0 + kRadiusChange;

@@ -159,14 +159,15 @@ class JointTree::Cells::NearestSearch final : Walk {
   boost::container::small_vector<std::pair<float, std::uint32_t>, kUsual> found_;
 };
 
-JointTree::Cells::Cells(const JointSpace& space)
-    : space_(&space), dimension_(space.getDimension()), cells_{leaf()} {}
+JointTree::Cells::Cells(const JointSpace& space, std::span<const double> factors)
+    : space_(&space), dimension_(space.getDimension()), scales_(space.weights()), cells_{leaf()} {
+  for (std::size_t d = 0; d < factors.size(); ++d) scales_[d] *= factors[d];
+}
 
 JointTree::Cells::Point JointTree::Cells::weighted(const double* values) const {
   Point point(dimension_, boost::container::default_init);
-  const double* const weights = space_->weights().data();
   for (std::size_t d = 0; d < dimension_; ++d) {
-    double value = weights[d] * values[d];
+    double value = scales_[d] * values[d];
     if (!(std::abs(value) <= kFarthest))
       value = std::isfinite(value) && value < 0.0 ? -kFarthest : kFarthest;
     point[d] = static_cast<float>(value);
@@ -283,6 +284,10 @@ std::size_t JointTree::Cells::nearest(const double* values,
 JointTree::JointTree() = default;
 JointTree::~JointTree() = default;
 
+void JointTree::setFactors(std::vector<double> factors) {
+  factors_ = std::move(factors);
+}
+
 void JointTree::clear() {
   cells_.reset();
 }
@@ -295,7 +300,10 @@ bool JointTree::holds(const ompl::base::State* state) const {
 bool JointTree::add(const ompl::base::State* state, std::uint32_t index) {
   const JointSpace::JointState* joints = asJointState(state);
   if (joints == nullptr) return false;
-  if (cells_ == nullptr) cells_ = std::make_unique<Cells>(joints->space());
+  if (cells_ == nullptr) {
+    if (!factors_.empty() && factors_.size() != joints->space().weights().size()) return false;
+    cells_ = std::make_unique<Cells>(joints->space(), factors_);
+  }
   if (!holds(state)) return false;
   cells_->add(joints->values, index);
   return true;

@@ -16,7 +16,8 @@ namespace swept::detail {
 /// points, whose distances are computed in lanes. Every cell has the bounding box of its points.
 class JointTree::Cells {
  public:
-  explicit Cells(const JointSpace& space);
+  /// `factors`: of joints beside their weights; none: 1.
+  Cells(const JointSpace& space, std::span<const double> factors);
 
   const JointSpace& space() const { return *space_; }
   void add(const double* values, std::uint32_t index);
@@ -48,6 +49,7 @@ class JointTree::Cells {
 
   const JointSpace* space_;
   std::size_t dimension_;
+  std::vector<double> scales_;  ///< of joints: weights times factors
   std::vector<Cell> cells_;
   float largest_ = 0.0F;  ///< of all coordinates' magnitudes
 };

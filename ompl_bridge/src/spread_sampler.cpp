@@ -41,6 +41,36 @@ void rotate(const double* u, ob::SO3StateSpace::StateType& state) {
   state.w = outer * std::cos(kTurn * u[2]);
 }
 
+void placeVector(const std::vector<double>& low, const std::vector<double>& width,
+                 const ob::State* from, const ob::State* to, double margin, const double* unit,
+                 ob::State* state) {
+  using Values = ob::RealVectorStateSpace::StateType;
+  double* const values = state->as<Values>()->values;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    double least = low[i], most = low[i] + width[i];
+    if (from != nullptr) {
+      const auto [less, more] =
+          std::minmax(from->as<Values>()->values[i], to->as<Values>()->values[i]);
+      least = std::clamp(less - margin, low[i], most);
+      most = std::clamp(more + margin, least, most);
+    }
+    values[i] = least + unit[i] * (most - least);
+  }
+}
+
+/// Along the shorter way between two angles.
+void placeTurn(const ob::State* from, const ob::State* to, double margin, double unit,
+               ob::State* state) {
+  using Turn = ob::SO2StateSpace::StateType;
+  double& value = state->as<Turn>()->value;
+  value = kTurn * unit - std::numbers::pi;
+  if (from == nullptr) return;
+  const double half = 0.5 * std::remainder(to->as<Turn>()->value - from->as<Turn>()->value, kTurn);
+  const double middle = from->as<Turn>()->value + half;
+  const double widest = std::min(std::abs(half) + margin, std::numbers::pi);
+  value = std::remainder(middle + widest * (2.0 * unit - 1.0), kTurn);
+}
+
 }  // namespace
 
 SpreadSampler::SpreadSampler(const ob::StateSpacePtr& space, std::uint32_t seed) {
@@ -89,6 +119,15 @@ bool SpreadSampler::addParts(const ob::StateSpace& space, std::vector<unsigned>&
 }
 
 void SpreadSampler::sample(ob::State* state) {
+  sampleIn({}, state);
+}
+
+void SpreadSampler::sampleAround(const ob::State* from, const ob::State* to, double margin,
+                                 ob::State* state) {
+  sampleIn({from, to, margin}, state);
+}
+
+void SpreadSampler::sampleIn(const Box& box, ob::State* state) {
   if (others_) return others_->sampleUniform(state);
   for (std::size_t i = 0; i < place_.size(); ++i) {
     place_[i] += steps_[i];
@@ -96,29 +135,28 @@ void SpreadSampler::sample(ob::State* state) {
   }
   const double* unit = place_.data();
   for (const Part& part : parts_) {
-    ob::State* own = state;
-    for (const unsigned i : part.where) own = own->as<ob::CompoundState>()->components[i];
-    place(part, unit, own);
-    unit += part.kind == Part::Kind::Vector ? part.low.size()
-            : part.kind == Part::Kind::Turn ? 1U
-                                            : 3U;
-  }
-}
-
-void SpreadSampler::place(const Part& part, const double* unit, ob::State* state) const {
-  switch (part.kind) {
-    case Part::Kind::Vector: {
-      double* const values = state->as<ob::RealVectorStateSpace::StateType>()->values;
-      for (std::size_t i = 0; i < part.low.size(); ++i)
-        values[i] = part.low[i] + unit[i] * part.width[i];
-      break;
+    const auto ofPart = [&part](auto* whole) {
+      for (const unsigned i : part.where)
+        whole = whole->template as<ob::CompoundState>()->components[i];
+      return whole;
+    };
+    ob::State* const own = ofPart(state);
+    const ob::State* const from = box.from == nullptr ? nullptr : ofPart(box.from);
+    const ob::State* const to = box.to == nullptr ? nullptr : ofPart(box.to);
+    switch (part.kind) {
+      case Part::Kind::Vector:
+        placeVector(part.low, part.width, from, to, box.margin, unit, own);
+        unit += part.low.size();
+        break;
+      case Part::Kind::Turn:
+        placeTurn(from, to, box.margin, *unit, own);
+        ++unit;
+        break;
+      case Part::Kind::Rotation:
+        rotate(unit, *own->as<ob::SO3StateSpace::StateType>());
+        unit += 3;
+        break;
     }
-    case Part::Kind::Turn:
-      state->as<ob::SO2StateSpace::StateType>()->value = kTurn * unit[0] - std::numbers::pi;
-      break;
-    case Part::Kind::Rotation:
-      rotate(unit, *state->as<ob::SO3StateSpace::StateType>());
-      break;
   }
 }
 

@@ -28,12 +28,15 @@ struct Node {
 /// States of a space, and the structure under test beside a list that is searched through.
 class Forest {
  public:
-  explicit Forest(ob::StateSpacePtr space, unsigned seed = 1)
-      : random_(seed), space_(std::move(space)) {
+  /// `factors`: of the joints of a JointSpace without weights; none: the metric of the space.
+  explicit Forest(ob::StateSpacePtr space, std::vector<double> factors = {})
+      : space_(std::move(space)), factors_(std::move(factors)) {
+    constexpr unsigned seed = 1;
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);  // of seeding anew
     ompl::RNG::setSeed(seed);
     space_->setup();
     nearest_.setDistanceFunction(distance());
+    nearest_.setJointFactors(factors_);
   }
   ~Forest() {
     for (const Node& node : nodes_) space_->freeState(node.state);
@@ -42,7 +45,7 @@ class Forest {
   Forest& operator=(const Forest&) = delete;
 
   std::function<double(Node* const&, Node* const&)> distance() const {
-    return [this](Node* const& a, Node* const& b) { return space_->distance(a->state, b->state); };
+    return [this](Node* const& a, Node* const& b) { return measure(a, b); };
   }
   /// Anywhere, near one of the last ones as trees grow, or at the very place of one.
   Node* draw() {
@@ -75,16 +78,26 @@ class Forest {
     return listed_[std::uniform_int_distribution<std::size_t>(0, listed_.size() - 1)(random_)];
   }
 
+  double measure(const Node* a, const Node* b) const {
+    if (factors_.empty()) return space_->distance(a->state, b->state);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < factors_.size(); ++i) {
+      const double difference = factors_[i] * (valueOf(*a, i) - valueOf(*b, i));
+      squares += difference * difference;
+    }
+    return std::sqrt(squares);
+  }
+
   /// Distances of what is asked for, by looking at all.
   std::vector<double> sorted(Node* query) const {
     std::vector<double> all;
-    for (Node* const node : listed_) all.push_back(space_->distance(node->state, query->state));
+    for (Node* const node : listed_) all.push_back(measure(node, query));
     std::ranges::sort(all);
     return all;
   }
   std::vector<double> distances(const std::vector<Node*>& nodes, Node* query) const {
     std::vector<double> all;
-    for (Node* const node : nodes) all.push_back(space_->distance(node->state, query->state));
+    for (Node* const node : nodes) all.push_back(measure(node, query));
     return all;
   }
   void compare(Node* query) const {
@@ -108,8 +121,13 @@ class Forest {
   ob::StateSpace& space() { return *space_; }
 
  private:
-  std::mt19937 random_;
+  static double valueOf(const Node& node, std::size_t i) {
+    return node.state->as<ob::RealVectorStateSpace::StateType>()->values[i];
+  }
+
+  std::mt19937 random_{1};
   ob::StateSpacePtr space_;
+  std::vector<double> factors_;
   std::deque<Node> nodes_;
   std::vector<Node*> listed_;
   NearestStates<Node*> nearest_;
@@ -144,6 +162,17 @@ TEST(NearestStates, AreThoseOfASearchThroughAll) {
     Forest forest(makeStateSpace(*robot, *robot->findGroup("all"), options));
     growAndCompare(forest, 5000);
   }
+}
+
+/// The factors change which states are near: with them the last axis does not matter next to the
+/// first.
+TEST(NearestStates, AreThoseOfAMetricWithFactors) {
+  const auto robot = gantry();
+  Forest forest(makeStateSpace(*robot, *robot->findGroup("all")), {2.0, 0.5, 1e-2});
+  growAndCompare(forest, 2000);
+  // For another number of joints there is no tree, and a search through others' structure.
+  Forest fewer(makeStateSpace(*robot, *robot->findGroup("all")), {2.0, 0.5});
+  growAndCompare(fewer, 300);
 }
 
 /// States that single precision cannot tell apart.

@@ -6,12 +6,14 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
 #include <ompl/base/spaces/WrapperStateSpace.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -82,6 +84,60 @@ TEST(SpreadSampler, SpreadsMoreEvenlyThanRandomNumbers) {
       EXPECT_LT(own, 0.04);
     }
   }
+}
+
+/// Within the margins around two states, and within the bounds, and as even there.
+TEST(SpreadSampler, DrawsFromABoxAroundTwoStates) {
+  constexpr double kMargin = 0.4;
+  const auto space = boxSpace(3);
+  const ob::RealVectorBounds& bounds = space->getBounds();
+  ob::ScopedState<ob::RealVectorStateSpace> from(space), to(space), state(space);
+  from[0] = -0.9, to[0] = -0.2;  // the margin ends at the lower bound, -1
+  from[1] = 1.5, to[1] = 1.0;
+  from[2] = to[2] = 6.4;  // the upper bound is 6.5
+  const std::vector<double> low{-1.0, 0.6, 6.0}, high{0.2, 1.9, 6.5};
+  detail::SpreadSampler sampler(space, 1);
+  std::vector<std::vector<double>> points;
+  for (int i = 0; i < 1000; ++i) {
+    sampler.sampleAround(from.get(), to.get(), kMargin, state.get());
+    points.emplace_back();
+    for (unsigned d = 0; d < 3; ++d) {
+      points.back().push_back((state[d] - low[d]) / (high[d] - low[d]));
+      EXPECT_GE(points.back().back(), -1e-12);
+      EXPECT_LE(points.back().back(), 1.0 + 1e-12);
+    }
+  }
+  std::mt19937 random(1);
+  EXPECT_LT(discrepancy(points, random), 0.04);
+  // A margin as wide as the space leaves nothing out.
+  detail::SpreadSampler wide(space, 1), all(space, 1);
+  ob::ScopedState<ob::RealVectorStateSpace> anywhere(space);
+  for (int i = 0; i < 100; ++i) {
+    wide.sampleAround(from.get(), to.get(), bounds.high[2] - bounds.low[2], state.get());
+    all.sample(anywhere.get());
+    for (unsigned d = 0; d < 3; ++d) EXPECT_NEAR(state[d], anywhere[d], 1e-12);
+  }
+}
+
+/// From 3 to -3 rad the shorter way is across pi.
+TEST(SpreadSampler, DrawsAnglesAroundTheShorterWay) {
+  const auto space = std::make_shared<ob::SO2StateSpace>();
+  ob::ScopedState<ob::SO2StateSpace> from(space), to(space), state(space);
+  from->value = 3.0;
+  to->value = -3.0;
+  detail::SpreadSampler sampler(space, 1);
+  const double half = std::numbers::pi - 3.0 + 0.1;
+  double least = 1.0, most = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    sampler.sampleAround(from.get(), to.get(), 0.1, state.get());
+    ASSERT_TRUE(space->satisfiesBounds(state.get()));
+    const double off = std::remainder(state->value - std::numbers::pi, 2.0 * std::numbers::pi);
+    least = std::min(least, off);
+    most = std::max(most, off);
+    EXPECT_LE(std::abs(off), half + 1e-12);
+  }
+  EXPECT_LT(least, -0.98 * half);
+  EXPECT_GT(most, 0.98 * half);
 }
 
 TEST(SpreadSampler, IsTheSameForASeed) {

@@ -8,10 +8,12 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "swept/ompl_bridge/nearest_states.hpp"
 
@@ -20,20 +22,23 @@ namespace swept {
 class Checker;
 
 namespace detail {
-class SpreadSampler;
 class ConstraintSteer;
+class ReachMetric;
+class SpreadSampler;
 }  // namespace detail
 
 /// RRT-Connect (J. Kuffner and S. LaValle, 2000) for motions that are quickly proven or refused.
 /// Give it to a SimpleSetup as any planner of OMPL.
 ///
-/// It differs from ompl::geometric::RRTConnect in this: Samples are a low-discrepancy sequence. A
-/// node whose extension was refused takes only samples nearby from then on (A. Yershova et al.,
-/// Dynamic-domain RRTs, 2005; L. Jaillet et al., Adaptive tuning of the sampling domain, 2005). The
-/// tree that is less than half as large as the other is extended until it is not (balanced trees,
-/// J. Kuffner and S. LaValle, 2005). The motion from start to goal is tried first. No state is
-/// checked that a motion proves. Nearest neighbours are those of NearestStates. Most of this is as
-/// in VAMP (W. Thomason, Z. Kingston and L. Kavraki, Motions in microseconds, 2024).
+/// It differs from ompl::geometric::RRTConnect in this: Samples are a low-discrepancy sequence,
+/// from a box around start and goal that grows with each of them until it is all of the space. The
+/// nearest node is the one from which the least space is swept: joints count by how far they move
+/// the robot. A node whose extension was refused takes only samples nearby from then on (A.
+/// Yershova et al., Dynamic-domain RRTs, 2005; L. Jaillet et al., Adaptive tuning of the sampling
+/// domain, 2005). The tree that is less than half as large as the other is extended until it is not
+/// (balanced trees, J. Kuffner and S. LaValle, 2005). The motion from start to goal is tried first.
+/// No state is checked that a motion proves. Nearest neighbours are those of NearestStates. Most of
+/// this is as in VAMP (W. Thomason, Z. Kingston and L. Kavraki, Motions in microseconds, 2024).
 ///
 /// Where the checker of the validators has constraints (Checker::withConstraints), it plans along
 /// them: samples are brought to where they hold, and so is the end of each step towards one, which
@@ -79,6 +84,7 @@ class CertifiedConnect : public ompl::base::Planner {
   struct Tree {
     bool start = false;  ///< rooted at starts, else at goals
     NearestStates<Node*> nodes = {};
+    std::vector<const ompl::base::State*> roots = {};  ///< of nodes without a parent
   };
   /// A node of each tree: the same state, or the ends of a proven motion.
   struct Meeting {
@@ -94,7 +100,8 @@ class CertifiedConnect : public ompl::base::Planner {
   Node* extend(Tree& tree);
   const Node* connect(Tree& tree, Node* to);
   const Node* connectAlong(Tree& tree, const Node* to);
-  const ompl::base::State* stepTowards(const Node& near, double distance);
+  const ompl::base::State* stepTowards(const Node& near);
+  void sample();
   bool isAllowed(const Meeting& meeting) const;
   bool grow(Meeting& meeting);
   ompl::base::PlannerStatus search(const ompl::base::PlannerTerminationCondition& ptc);
@@ -106,6 +113,8 @@ class CertifiedConnect : public ompl::base::Planner {
   std::uint32_t seed_ = 1;
   bool provesEnds_ = false;  ///< a motion is free only if both ends are
   std::unique_ptr<detail::SpreadSampler> sampler_;
+  std::size_t samples_ = 0;                         ///< drawn since the trees were empty
+  std::unique_ptr<detail::ReachMetric> metric_;     ///< of the nearest node, and of radii
   std::shared_ptr<const Checker> checker_;          ///< whose constraints steer_ keeps
   std::unique_ptr<detail::ConstraintSteer> steer_;  ///< null: there are none
   std::deque<Node> nodes_;

@@ -43,6 +43,9 @@ class JointTree {
   JointTree();
   ~JointTree();
 
+  /// Of joints, beside their weights in the distance; none: 1. Before a state is added.
+  void setFactors(std::vector<double> factors);
+  /// Forgets the states.
   void clear();
   /// Adds a state. Returns false, and changes nothing, for a state that is not from
   /// makeStateSpace's space of a group of limited joints, or from another space than the states
@@ -61,6 +64,7 @@ class JointTree {
   class Cells;
   bool holds(const ompl::base::State* state) const;
 
+  std::vector<double> factors_;
   std::unique_ptr<Cells> cells_;
 };
 
@@ -90,6 +94,11 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     ompl::NearestNeighbors<T>::setDistanceFunction(distance);
     if (others_) others_->setDistanceFunction(distance);
   }
+
+  /// For a distance function that is the metric of the space with the joints' differences
+  /// multiplied by these factors (> 0), one for each joint; call it before anything is added. For
+  /// spaces of others it changes nothing.
+  void setJointFactors(std::vector<double> factors) { tree_.setFactors(std::move(factors)); }
 
   /// Always true: nearest first.
   bool reportsSortedResults() const override { return true; }
