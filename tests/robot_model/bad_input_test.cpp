@@ -183,6 +183,8 @@ std::vector<BadInput> urdfJoints() {
       {"UnexpandedExpression", "r.urdf", revolute("<origin rpy='0 ${pi/2} 0'/>" + limit),
        "@/r.urdf:5: error: <origin rpy=\"0 ${pi/2} 0\"> of joint 'j' must be 3 finite numbers "
        "separated by spaces"},
+      {"TurnedAxis", "r.urdf", revolute("<axis xyz='1 0 0' rpy='0 0.1 0'/>" + limit),
+       "@/r.urdf:5: error: <axis> of joint 'j': unknown attribute 'rpy'; allowed are xyz"},
       {"QuaternionOrigin", "r.urdf", revolute("<origin quat_xyzw='0 0 0 0'/>" + limit),
        "@/r.urdf:5: error: <origin quat_xyzw=\"0 0 0 0\"> of joint 'j' is not supported; give the "
        "rotation as rpy"},
