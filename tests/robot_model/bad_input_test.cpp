@@ -632,6 +632,9 @@ std::vector<BadInput> textScenes() {
        "@/s.scene:8: error: the file ends where '*' or '.' should follow"},
       {"SceneGarbage", "s.scene", "name\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\nx\n",
        "@/s.scene:9: error: 'x' where '*' (an object) or '.' (the end) should be"},
+      {"SceneAfterItsEnd", "s.scene",
+       "name\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n\nother\n* b\n1\n",
+       "@/s.scene:11: error: 'other' follows the '.' that ends the scene"},
       {"SceneShape", "s.scene", "name\n* a\n1\nprism\n1 1\n",
        "@/s.scene:4: error: object 'a': the shape 'prism' is not supported; allowed are box, "
        "sphere, cylinder, cone, plane and mesh"},
