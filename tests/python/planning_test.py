@@ -176,6 +176,17 @@ def test_certify_trajectory_against_cpp(checker, oracle, states):
     assert verdicts.count(Verdict.FREE) > 5 and verdicts.count(Verdict.COLLISION) > 5
 
 
+def test_certify_trajectory_of_other_variables(checker, home):
+    names, ends = checker.group.variable_names, np.array([home, home + 0.01])
+    assert checker.certify_trajectory(swept.Trajectory(names, [0.0, 1.0], ends))
+    swapped = swept.Trajectory(names[1::-1] + names[2:], [0.0, 1.0], ends)
+    text = "trajectory: expected the variables joint1, joint2, .*, joint7, in this order; got joint2, joint1, joint3"
+    with pytest.raises(swept.ArgumentError, match=text):
+        checker.certify_trajectory(swapped)
+    with pytest.raises(swept.ArgumentError, match="^curve: expected the variables joint1, "):
+        swept.ScheduleChecker(checker, names).certify(swapped)
+
+
 def test_ranges(slot, home):
     ready = slot.named_state("ready")
     for bad in (0.0, -1.0, float("nan"), float("inf")):
