@@ -117,6 +117,22 @@ TEST(EnclosingParts, ContainTheMesh) {
   EXPECT_LT(parts, 0.35 * hulls);
 }
 
+/// The volume of so thin a hull, estimated by few directions, is negative.
+TEST(EnclosingParts, TwoThinPiecesFarApart) {
+  const std::vector<Vector3d> vertices{{3, 3, -4},  {3, 7, -4},  {2, 2, -3},  {7, 1, -7},
+                                       {0, -5, -7}, {1, -2, -3}, {4, -5, -8}, {0, -3, -8}};
+  std::vector<Eigen::Vector3i> triangles;
+  for (const int first : {0, 4})
+    for (const Eigen::Vector3i& face : {Eigen::Vector3i(0, 2, 1), Eigen::Vector3i(0, 1, 3),
+                                        Eigen::Vector3i(0, 3, 2), Eigen::Vector3i(1, 2, 3)})
+      triangles.emplace_back(face + Eigen::Vector3i::Constant(first));
+  const TriangleMesh mesh = TriangleMesh::build(vertices, triangles).withEnclosingParts();
+  ASSERT_NE(mesh.enclosingParts(), nullptr);
+  std::mt19937 random(4);
+  for (int i = 0; i < 500; ++i)
+    ASSERT_TRUE(holds(*mesh.enclosingParts(), 0, pointOfTriangle(mesh, random)));
+}
+
 TEST(EnclosingParts, BoxesContainTheHulls) {
   std::mt19937 random(4);
   for (const TriangleMesh& mesh : samples(random)) {

@@ -194,6 +194,8 @@ TEST(BadOptions, EmptyTextsAreRefused) {
     EXPECT_EQ(run.out, "") << option;
     EXPECT_EQ(run.err, kError + option + ": must not be empty (try --help)\n");
   }
+  EXPECT_EQ(runSwept({"check", "", "left"}).err,
+            kError + "robot: must not be empty (try --help)\n");
 }
 
 TEST(BadFiles, BrokenContentsAreNamedWithTheirFile) {

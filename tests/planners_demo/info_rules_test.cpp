@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "gantry.hpp"
@@ -8,6 +9,8 @@
 namespace swept::test {
 namespace {
 
+using testing::HasSubstr;
+using testing::Not;
 using Words = std::vector<std::string>;
 
 const Words kRules[] = {{"--pad", "garbage"},           {"--scale", "cube=2"},
@@ -44,6 +47,22 @@ TEST(InfoRules, AreForTheGroupWhereThereIsOne) {
   EXPECT_EQ(padded["group"]["checked_pairs"][0]["margin"], 0.05);
   EXPECT_EQ(runSwept(with(info, {"--pad", "garbage"})).err,
             "swept: error: --pad 'garbage': expected NAME=NUMBER\n");
+}
+
+/// A rule of the library may be for bodies that come later. On a command line all of them are
+/// known.
+TEST(InfoRules, APatternThatNothingHasIsTold) {
+  const Gantry gantry;
+  const auto said = [&](const std::string& option, const std::string& value) {
+    return runSwept({"check", gantry.urdf, "left", "--group", "both", "--scene", gantry.scene,
+                     option, value})
+        .err;
+  };
+  EXPECT_THAT(said("--pad", "cubbe*=0.01"),
+              HasSubstr("swept: warning: a rule names 'cubbe*', which is the name of no link, "
+                        "attached body or body of the world\n"));
+  EXPECT_THAT(said("--allow", "*,cubbe*"), HasSubstr("a rule names 'cubbe*'"));
+  EXPECT_THAT(said("--allow", "*,cub*"), Not(HasSubstr("a rule names")));
 }
 
 /// There is nothing to check then, and nothing wrong either.

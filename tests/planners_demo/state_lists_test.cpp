@@ -42,11 +42,12 @@ class StateLists : public testing::Test {
 };
 
 TEST_F(StateLists, AFileHasAStateOnEachLine) {
-  const std::string file =
-      write("states.txt", "# slide, lift\n0,0.25\n\n1.5 0.5  # blanks\n\tleft\r\n 1, 0");
+  const std::string text = "# slide, lift\n0,0.25\n\n1.5 0.5  # blanks\n\tleft\r\n 1, 0";
+  const std::string file = write("states.txt", text);
   const Json typed = states({"0,0.25", "1.5,0.5", "left", "1,0"});
   EXPECT_EQ(states({"@" + file}), typed);
   EXPECT_EQ(states({"0,0.25", "@" + write("rest.txt", "1.5,0.5\nleft\n1,0\n")}), typed);
+  EXPECT_EQ(states({"@" + write("mark.txt", "\xef\xbb\xbf" + text)}), typed);
   const Outcome run = gantry_.run("check", {"@" + file});
   EXPECT_EQ(run.exitCode, 1);
   EXPECT_THAT(run.out, StartsWith(file + ":2: free"));
@@ -158,6 +159,9 @@ TEST_F(StateLists, AreRefusedWithFileAndLine) {
   EXPECT_EQ(
       refusal("check", {"@" + write("far.txt", "\n0 7\n")}),
       gantry_.folder().path("far.txt") + ":2: error: state: lift is 7, allowed is 0 to 1 m\n");
+  EXPECT_EQ(refusal("check", {"@" + write("old.txt", "0,0\r# right\r1,0\r")}),
+            gantry_.folder().path("old.txt") +
+                ":1: error: a carriage return is within the line; a line ends with a line feed\n");
   EXPECT_EQ(refusal("check", {"@" + write("empty.txt", "# nothing\n")}),
             gantry_.folder().path("empty.txt") + ": error: there is no state in it\n");
   EXPECT_EQ(refusal("check", {"@" + gantry_.folder().path("absent.txt")}),

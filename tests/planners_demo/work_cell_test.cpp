@@ -12,6 +12,7 @@ namespace swept::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kCell = "models/cells/two_rooks.yaml";
 
@@ -55,6 +56,15 @@ TEST(WorkCellProgram, TellsWhatIsInIt) {
   EXPECT_THAT(info.out, HasSubstr("both"));
   const Outcome words = runSwept({"completion", "words", "swept check " + kCell + " --group "});
   EXPECT_THAT(words.out, HasSubstr("right/arm"));
+}
+
+TEST(WorkCellProgram, TellsOfAStandThatDoesNothing) {
+  const std::string text = "--stand 'right/arm=home': group 'right/arm' moves these joints itself";
+  const auto said = [](const std::string& group) {
+    return runSwept({"check", kCell, "home", "--group", group, "--stand", "right/arm=home"}).err;
+  };
+  EXPECT_THAT(said("right/arm"), HasSubstr("swept: warning: " + text + "\n"));
+  EXPECT_THAT(said("left/arm"), Not(HasSubstr("--stand")));
 }
 
 TEST(WorkCellProgram, RefusesWhatIsAboutOneRobot) {

@@ -34,6 +34,21 @@ def test_robot(robot):
         assert isinstance(caught.value, swept.Error)
 
 
+@pytest.mark.parametrize("call, text", [
+    (lambda robot, urdf: swept.Robot.load(urdf, packages=["a"]), "packages: expected a dict of names and folders"),
+    (lambda robot, urdf: swept.Robot.load(urdf, packages={"a": 3}), "packages: expected a dict of names and folders"),
+    (lambda robot, urdf: swept.Robot.load(urdf, 3), "a file: expected a path, got 3"),
+    (lambda robot, urdf: swept.Checker(robot, [1, 2]), r"group: expected a list of joints, got \[1, 2\]"),
+    (lambda robot, urdf: swept.Checker(robot, "arm", reference={"joint1": "up"}), "reference: expected values by name"),
+    (lambda robot, urdf: robot.standing({1: "home"}), "postures: expected names of groups, got 1"),
+    (lambda robot, urdf: swept.SphereModel({1: [[0, 0, 0, 1]]}), "links: expected names of links, got 1"),
+    (lambda robot, urdf: swept.ShapeModel({1: Shape.sphere(1.0)}), "links: expected names of links, got 1"),
+])
+def test_wrong_types_are_named(robot, call, text):
+    with pytest.raises(swept.ArgumentTypeError, match=f"^{text}"):
+        call(robot, MODELS / "robots/rook7/rook7.urdf")
+
+
 def test_sphere_covers(robot, checker, home):
     """At every level the balls contain what the checker sees: no body is nearer to the link than to its balls."""
     hand = robot.link_pose("arm", "hand", home)

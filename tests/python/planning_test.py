@@ -176,6 +176,26 @@ def test_certify_trajectory_against_cpp(checker, oracle, states):
     assert verdicts.count(Verdict.FREE) > 5 and verdicts.count(Verdict.COLLISION) > 5
 
 
+def test_certify_trajectory_of_other_variables(checker, home):
+    names, ends = checker.group.variable_names, np.array([home, home + 0.01])
+    assert checker.certify_trajectory(swept.Trajectory(names, [0.0, 1.0], ends))
+    swapped = swept.Trajectory(names[1::-1] + names[2:], [0.0, 1.0], ends)
+    text = "trajectory: expected the variables joint1, joint2, .*, joint7, in this order; got joint2, joint1, joint3"
+    with pytest.raises(swept.ArgumentError, match=text):
+        checker.certify_trajectory(swapped)
+    with pytest.raises(swept.ArgumentError, match="^curve: expected the variables joint1, "):
+        swept.ScheduleChecker(checker, names).certify(swapped)
+
+
+def test_ranges(slot, home):
+    ready = slot.named_state("ready")
+    for bad in (0.0, -1.0, float("nan"), float("inf")):
+        with pytest.raises(swept.ArgumentError, match="^range: expected a positive number"):
+            swept.plan(slot, home, ready, range=bad)
+    # With a range of so little RRT goes nowhere. As 0 it would be the planner's own.
+    assert not swept.plan(slot, home, ready, planner="RRT", range=1e-7, seconds=0.3)
+
+
 def test_plan_trajectory(slot):
     tube = swept.TrackingTolerance(rotation=0.005)
     limits = swept.RateLimits(slot, acceleration=3.0)

@@ -183,6 +183,8 @@ std::vector<BadInput> urdfJoints() {
       {"UnexpandedExpression", "r.urdf", revolute("<origin rpy='0 ${pi/2} 0'/>" + limit),
        "@/r.urdf:5: error: <origin rpy=\"0 ${pi/2} 0\"> of joint 'j' must be 3 finite numbers "
        "separated by spaces"},
+      {"TurnedAxis", "r.urdf", revolute("<axis xyz='1 0 0' rpy='0 0.1 0'/>" + limit),
+       "@/r.urdf:5: error: <axis> of joint 'j': unknown attribute 'rpy'; allowed are xyz"},
       {"QuaternionOrigin", "r.urdf", revolute("<origin quat_xyzw='0 0 0 0'/>" + limit),
        "@/r.urdf:5: error: <origin quat_xyzw=\"0 0 0 0\"> of joint 'j' is not supported; give the "
        "rotation as rpy"},
@@ -630,6 +632,9 @@ std::vector<BadInput> textScenes() {
        "@/s.scene:8: error: the file ends where '*' or '.' should follow"},
       {"SceneGarbage", "s.scene", "name\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\nx\n",
        "@/s.scene:9: error: 'x' where '*' (an object) or '.' (the end) should be"},
+      {"SceneAfterItsEnd", "s.scene",
+       "name\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n\nother\n* b\n1\n",
+       "@/s.scene:11: error: 'other' follows the '.' that ends the scene"},
       {"SceneShape", "s.scene", "name\n* a\n1\nprism\n1 1\n",
        "@/s.scene:4: error: object 'a': the shape 'prism' is not supported; allowed are box, "
        "sphere, cylinder, cone, plane and mesh"},

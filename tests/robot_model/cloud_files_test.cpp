@@ -173,6 +173,17 @@ TEST_F(CloudFiles, LinesMayEndAsInDos) {
   expectSame(load("a.xyz", "# one\r\n\r\n1 2 3\r\n4\t5\t6"), {{1, 2, 3}, {4, 5, 6}}, "xyz");
 }
 
+TEST_F(CloudFiles, AMarkOfUtf8IsPassedOver) {
+  const std::string mark = "\xef\xbb\xbf";
+  expectSame(load("a.xyz", mark + test::xyz(kThree)), kThree, "xyz");
+  for (const std::string form : {"ascii", "binary"})
+    expectSame(load("a.pcd", mark + test::pcd(kThree, kDoubles, form, "\n")), kThree, form);
+  for (const std::string form : {"ascii", "binary_little_endian"})
+    expectSame(
+        load("a.ply", mark + test::ply({test::plyVertex(kThree, kDoubles, false, "\n")}, form)),
+        kThree, form);
+}
+
 TEST_F(CloudFiles, XyzLinesHaveOneKindOfSeparator) {
   const Points points{{1.5, -2.0, 3e2}};
   for (const std::string line :

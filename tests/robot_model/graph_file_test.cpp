@@ -157,6 +157,13 @@ TEST_F(GraphFile, BrokenIsRefused) {
   EXPECT_EQ(refusal([](json& j) { j["colour"] = 1; }),
             "the roadmap has the unknown key 'colour'; allowed are swept_roadmap, robot, group, "
             "robot_digest, options_digest, content_digest, bodies, states, motions and blocked");
+  EXPECT_EQ(refusal([](json& j) { j["bodies"][3]["colour"] = 1; }),
+            "bodies[3] has the unknown key 'colour'; allowed are name and digest");
+  EXPECT_EQ(refusal([](json& j) { j["blocked"][1]["colour"] = 1; }),
+            "blocked[1] has the unknown key 'colour'; allowed are motion and by");
+  EXPECT_EQ(refusal([](json& j) { j["blocked"][1]["by"][0]["colour"] = 1; }),
+            "blocked[1].by[0] has the unknown key 'colour'; allowed are body and verdict");
+  EXPECT_EQ(refusal([](json& j) { j["bodies"][3] = 1; }), "bodies[3] must be an object");
   EXPECT_EQ(refusal([](json& j) { j.erase("motions"); }), "motions is missing");
   EXPECT_EQ(refusal([](json& j) { j["group"] = "legs"; }),
             "the roadmap is of group 'legs', not of group 'all'");

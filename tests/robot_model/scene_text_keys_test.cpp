@@ -32,6 +32,7 @@ TEST(SceneTextKeys, EachIsAppliedOrWithoutMeaning) {
       {"shape_pose", base, scene("s", "a", "1 0 0", ball, "0 3 0", no, "top")},
       {"colour", base, scene("s", "a", "1 0 0", ball, "0 2 0", "1 0 0 1", "top")},
       {"subframe", base, scene("s", "a", "1 0 0", ball, "0 2 0", no, "side")},
+      {"text after the end", base, base + "s\n.\n"},
   };
   const test::TemporaryFolder folder;
   const auto robot = test::twoArms();

@@ -40,6 +40,11 @@ TEST(ShortMessage, LongWordsKeepTheirEnds) {
                 "end' is here");
 }
 
+TEST(ShortMessage, ZerosAreShown) {
+  using std::string_literals::operator""s;
+  EXPECT_EQ(detail::shortMessage("no 'a\0\0b', but 'c'"s), "no 'a\\u0000\\u0000b', but 'c'");
+}
+
 TEST(ShortMessage, CharactersStayWhole) {
   std::string word = "a";
   for (int i = 0; i < 300; ++i) word += "\xc3\xa4";

@@ -155,6 +155,7 @@ std::vector<test::KeyCase> ofJoints(const UrdfText& urdf) {
       urdf.changed("joint/origin rpy", "rpy=\"0 0 0\"", "rpy=\"0 0 2\""),
       urdf.changed("joint/origin quat_xyzw", "rpy=\"0 0 0\"", "quat_xyzw=\"0 0 0 1\""),
       urdf.changed("joint/axis xyz", "axis xyz=\"0 0 1\"", "axis xyz=\"0 1 0\""),
+      urdf.changed("joint/axis rpy", "axis xyz=\"0 0 1\"", "axis xyz=\"0 0 1\" rpy=\"0 0 0\""),
       urdf.changed("joint/limit lower", "lower=\"-1\"", "lower=\"-2\""),
       urdf.changed("joint/limit upper", "upper=\"1\"", "upper=\"2\""),
       urdf.changed("joint/limit min", limit, limit + " min=\"-2\""),

@@ -3,6 +3,8 @@
 // not understand and says nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "gltf_text.hpp"
@@ -67,6 +69,57 @@ TEST(WholeGltfFiles, NodesPlaceTheirMeshes) {
   EXPECT_LE((box.min() - Eigen::Vector3d(-1.9, 0.2, 0.3)).norm(), content.error);
   EXPECT_LE((box.max() - Eigen::Vector3d(0.1, 2.2, 2.3)).norm(), content.error);
   EXPECT_LT(content.error, 5e-5);
+}
+
+/// The tetrahedron below so many nodes of the same transform.
+std::string nested(int count, const std::string& placed) {
+  std::string nodes;
+  for (int i = 0; i < count; ++i)
+    nodes += "{" + placed +
+             (i + 1 < count ? ",\"children\":[" + std::to_string(i + 1) + "]}," : ",\"mesh\":0}");
+  return test::glbOf(changed(kTetrahedron.json(), {"{\"mesh\":0}", nodes, ""}), kTetrahedron.bytes);
+}
+
+/// Rooms in buildings in towns: what a node does to lengths, not how many there are, is what
+/// single precision loses.
+TEST(WholeGltfFiles, ManyNodesInEachOtherAreRead) {
+  const test::TemporaryFolder folder;
+  detail::MeshFileReader reader;
+  const auto read = [&](int count, const std::string& placed) {
+    return reader.read(folder.write("m.glb", nested(count, placed)));
+  };
+  // 60 times a third of a turn about the diagonal.
+  const detail::MeshFileContent turned = read(60, "\"rotation\":[0.5,0.5,0.5,0.5]");
+  // Moved by 6 m.
+  const detail::MeshFileContent moved = read(60, "\"translation\":[0.1,0,0]");
+  // 0.9^60 of the size.
+  const detail::MeshFileContent scaled = read(60, "\"scale\":[0.9,0.9,0.9]");
+  // Their corners may come in another order.
+  const auto holds = [](const detail::MeshFileContent& content, const Eigen::Vector3d& corner) {
+    return std::ranges::any_of(content.vertices, [&](const Eigen::Vector3d& vertex) {
+      return (vertex - corner).norm() <= content.error;
+    });
+  };
+  for (const auto& [x, y, z] : kTetrahedron.corners) {
+    const Eigen::Vector3d corner(x, y, z);
+    EXPECT_TRUE(holds(turned, corner));
+    EXPECT_TRUE(holds(moved, corner + Eigen::Vector3d(6.0, 0.0, 0.0)));
+    EXPECT_TRUE(holds(scaled, std::pow(0.9, 60) * corner));
+  }
+  EXPECT_LT(turned.error, 1e-3);
+  EXPECT_LT(moved.error, 1e-4);
+  EXPECT_LT(scaled.error, 1e-3 * std::pow(0.9, 60));
+}
+
+TEST(WholeGltfFiles, WhatNodesPlaceTooInexactlyIsRefused) {
+  const std::string far = changed(
+      kTetrahedron.json(),
+      {"{\"mesh\":0}",
+       "{\"translation\":[1e6,0,0],\"children\":[1]},{\"translation\":[-1e6,0,0],\"mesh\":0}", ""});
+  EXPECT_EQ(said("m.glb", test::glbOf(far, kTetrahedron.bytes)),
+            "cannot be read: in single precision its nodes place it only to within "
+            "0.7152562737467858 m; at "
+            "most 0.01 m are allowed");
 }
 
 TEST(WholeGltfFiles, WhatIsCutOffIsRefused) {

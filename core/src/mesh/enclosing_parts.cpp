@@ -106,7 +106,8 @@ class Farthest {
       take(k, other.height_[k], {other.point_[0][k], other.point_[1][k], other.point_[2][k]});
   }
 
-  /// m^3, near the volume of their hull. 0 without points.
+  /// m^3, near the volume of their hull. 0 without points, and where the hull is so thin that the
+  /// faces between these points enclose less than nothing.
   double volume() const {
     if (std::isinf(height_[0])) return 0.0;
     const auto at = [this](int k) {
@@ -115,7 +116,7 @@ class Farthest {
     };
     double sum = 0.0;
     for (const auto& [a, b, c] : Sphere38::get().faces) sum += at(a).dot(at(b).cross(at(c)));
-    return sum / 6.0;
+    return std::max(0.0, sum / 6.0);
   }
 
  private:

@@ -27,7 +27,7 @@ std::string groupOf(RobotHandle& robot, const py::object& group) {
   if (!py::isinstance<py::sequence>(group))
     throw ArgumentTypeError("group: expected the name of a group, or a list of joints; got " +
                             std::string(py::repr(group)));
-  const auto joints = group.cast<std::vector<std::string>>();
+  const auto joints = valueOf<std::vector<std::string>>(group, "group", "a list of joints");
   std::string name;
   for (const std::string& joint : joints) name += (name.empty() ? "" : ",") + joint;
   if (robot.robot->findGroup(name) == nullptr) {
@@ -41,7 +41,7 @@ std::string groupOf(RobotHandle& robot, const py::object& group) {
 std::optional<Eigen::VectorXd> referenceOf(const Robot& robot, const py::object& reference) {
   if (reference.is_none()) return std::nullopt;
   if (py::isinstance<py::dict>(reference))
-    return wholeStateOf(robot, reference.cast<NamedValues>());
+    return wholeStateOf(robot, valueOf<NamedValues>(reference, "reference", "values by name"));
   const Table table = readVector(reference, "reference", robot.variables().size());
   return Eigen::Map<const Eigen::VectorXd>(table.numbers().data(),
                                            static_cast<Eigen::Index>(table.columns()));

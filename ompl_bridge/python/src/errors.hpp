@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 namespace swept::python {
 
@@ -14,6 +15,17 @@ class ArgumentTypeError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// `value` as a T. Throws ArgumentTypeError: `ARGUMENT: expected EXPECTED, got VALUE`.
+template <typename T>
+T valueOf(const pybind11::handle& value, const char* argument, const char* expected) {
+  try {
+    return value.cast<T>();
+  } catch (const pybind11::cast_error&) {
+    throw ArgumentTypeError(std::string(argument) + ": expected " + expected + ", got " +
+                            std::string(pybind11::repr(value)));
+  }
+}
 
 /// Work that a token or a deadline ended; swept.Cancelled.
 class Cancelled : public std::runtime_error {

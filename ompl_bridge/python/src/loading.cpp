@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 
+#include "errors.hpp"
 #include "swept/robot_model/usage_error.hpp"
 
 namespace py = pybind11;
@@ -48,7 +49,8 @@ Source sourceOf(const std::filesystem::path& file, const py::object& srdf,
                 .modelFrame = modelFrame,
                 .childProcess = childProcess};
   if (!packages.is_none())
-    for (auto& [name, folder] : packages.cast<std::map<std::string, std::filesystem::path>>())
+    for (const auto& [name, folder] : valueOf<std::map<std::string, std::filesystem::path>>(
+             packages, "packages", "a dict of names and folders"))
       source.packages.emplace_back(name, std::filesystem::absolute(folder));
   return source;
 }
@@ -60,7 +62,7 @@ py::object toPython(const std::filesystem::path& file) {
 
 std::filesystem::path pathOf(const py::handle& value) {
   if (value.is_none()) return {};
-  return value.cast<std::filesystem::path>();
+  return valueOf<std::filesystem::path>(value, "a file", "a path");
 }
 
 std::string endingOf(const std::filesystem::path& file) {

@@ -7,10 +7,14 @@
 #include <ompl/util/RandomNumbers.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -129,6 +133,12 @@ bool setPoseGoal(og::SimpleSetup& setup, const std::shared_ptr<const Checker>& c
   return goal->hasStates();
 }
 
+/// Shortest text that reads back as the same double, as planners take their parameters.
+std::string exactText(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanOptions& options) {
   if (options.roadmap != nullptr) {
     // Whoever plans on a roadmap keeps it as long as the planner.
@@ -138,7 +148,7 @@ ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanOptions& option
   ob::PlannerPtr planner = makePlanner(options.planner, setup.getSpaceInformation());
   if (auto* own = dynamic_cast<CertifiedConnect*>(planner.get())) own->setSeed(options.seed);
   if (options.range && !(planner->params().hasParam("range") &&
-                         planner->params().setParam("range", std::to_string(*options.range))))
+                         planner->params().setParam("range", exactText(*options.range))))
     throw UsageError("planner " + options.planner + " has no range");
   return planner;
 }
@@ -208,6 +218,8 @@ Goals readGoals(const py::object& goal, std::size_t dimension) {
 void requireOptions(const PlanOptions& options) {
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds: expected a positive number");
   if (options.seed == 0) throw std::invalid_argument("seed: expected a number above 0");
+  if (options.range && !(*options.range > 0.0 && std::isfinite(*options.range)))
+    throw std::invalid_argument("range: expected a positive number");
 }
 
 Plan plan(const CheckerHandle& checker, const py::object& start, const py::object& goal,

@@ -8,6 +8,7 @@
 
 #include "arrays.hpp"
 #include "binding.hpp"
+#include "errors.hpp"
 #include "handles.hpp"
 #include "loading.hpp"
 #include "robots.hpp"
@@ -114,7 +115,7 @@ py::object standing(const RobotHandle& self, const py::dict& postures) {
   const Robot& robot = *self.robot;
   Eigen::VectorXd all = robot.defaultState();
   for (const auto& [key, posture] : postures) {
-    const auto name = key.cast<std::string>();
+    const auto name = valueOf<std::string>(key, "postures", "names of groups");
     const Group& group = groupOf(robot, name);
     std::vector<double> q;
     if (py::isinstance<py::str>(posture)) {

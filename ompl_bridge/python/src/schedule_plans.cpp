@@ -155,7 +155,7 @@ void bindScheduleChecker(py::module_& module) {
       .def(
           "certify",
           [](const ScheduleChecker& self, const py::object& curve, const py::object& query) {
-            const PiecewisePolynomial own = curveOf(curve, "curve");
+            const PiecewisePolynomial own = curveOf(curve, "curve", self.variables());
             const MotionQuery how =
                 query.is_none() ? MotionQuery::FirstContact : motionQueryOf(query, "query");
             const py::gil_scoped_release released;
@@ -164,8 +164,9 @@ void bindScheduleChecker(py::module_& module) {
           },
           py::arg("curve"), py::arg("query") = py::none(),
           "TrajectoryCertificate from the begin to the end of `curve`, a Curve or Trajectory of "
-          "the own variables whose time is the clock's.\nRaises ArgumentError for another number "
-          "of values, and for a curve that begins before the clock's time 0.")
+          "the own variables, in their order, whose time is the clock's.\nRaises ArgumentError for "
+          "other variables, for another number of values, and for a curve that begins before the "
+          "clock's time 0.")
       .def_property_readonly(
           "variable_names",
           [](const ScheduleChecker& self) { return py::tuple(py::cast(self.variables())); },

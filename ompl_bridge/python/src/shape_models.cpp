@@ -15,6 +15,7 @@
 #include "binding.hpp"
 #include "covered.hpp"
 #include "enums.hpp"
+#include "errors.hpp"
 #include "loading.hpp"
 #include "spheres.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -29,8 +30,8 @@ namespace {
 ShapeModel modelOfShapes(const py::dict& links) {
   ShapeModel model;
   for (const auto& [link, shapes] : links)
-    model.links.push_back(
-        {link.cast<std::string>(), posedOf(py::reinterpret_borrow<py::object>(shapes))});
+    model.links.push_back({valueOf<std::string>(link, "links", "names of links"),
+                           posedOf(py::reinterpret_borrow<py::object>(shapes))});
   return model;
 }
 

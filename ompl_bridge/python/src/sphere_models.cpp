@@ -13,6 +13,7 @@
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "covered.hpp"
+#include "errors.hpp"
 #include "loading.hpp"
 #include "spheres.hpp"
 #include "swept/robot_model/shape_model.hpp"
@@ -30,7 +31,7 @@ using Reports = std::vector<LinkSphereReport>;
 SphereModel modelOf(const py::dict& links) {
   SphereModel model;
   for (const auto& [link, spheres] : links) {
-    const auto name = link.cast<std::string>();
+    const auto name = valueOf<std::string>(link, "links", "names of links");
     model.links.push_back({name, spheresOf(py::reinterpret_borrow<py::object>(spheres),
                                            ("spheres of '" + name + "'").c_str())});
   }

@@ -296,10 +296,17 @@ void bindCertificate(py::module_& module) {
   addImmutableCopies(type);
 }
 
+std::vector<std::string> variablesOf(const Checker& checker) {
+  std::vector<std::string> names;
+  for (const int variable : checker.group().variables)
+    names.push_back(checker.robot().variables()[static_cast<std::size_t>(variable)].name);
+  return names;
+}
+
 TrajectoryCertificate certify(const CheckerHandle& self, const py::object& trajectory,
                               const RateLimits* limits, double clock, bool clearances,
                               const py::object& query) {
-  const PiecewisePolynomial curve = curveOf(trajectory, "trajectory");
+  const PiecewisePolynomial curve = curveOf(trajectory, "trajectory", variablesOf(self.checker()));
   const TrajectoryQuery how = queryOf(limits, clock, clearances, query);
   const py::gil_scoped_release others;
   Workspace workspace(self.checker());
@@ -358,6 +365,22 @@ PiecewisePolynomial curveOf(const py::object& trajectory, const char* argument) 
                           std::string(py::repr(trajectory)));
 }
 
+PiecewisePolynomial curveOf(const py::object& trajectory, const char* argument,
+                            const std::vector<std::string>& variables) {
+  if (py::isinstance<JointTrajectory>(trajectory)) {
+    const std::vector<std::string>& own = trajectory.cast<const JointTrajectory&>().variables;
+    const auto listed = [](const std::vector<std::string>& names) {
+      std::string text;
+      for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+      return text;
+    };
+    if (own != variables)
+      throw std::invalid_argument(std::string(argument) + ": expected the variables " +
+                                  listed(variables) + ", in this order; got " + listed(own));
+  }
+  return curveOf(trajectory, argument);
+}
+
 TrajectoryQuery queryOf(const RateLimits* limits, double clock, bool clearances,
                         const py::object& contact) {
   TrajectoryQuery query{
@@ -400,7 +423,8 @@ void bindTrajectories(py::module_& module) {
            "the checker's tube. `limits`:\nRateLimits to look at. `clock`: s, what moving "
            "obstacles' "
            "clock shows at time 0. `clearances`: whether to compute least\ndistances. `query`: "
-           "MotionQuery, by default FIRST_CONTACT.");
+           "MotionQuery, by default FIRST_CONTACT. Raises ArgumentError for a Trajectory of other "
+           "variables than the group's, in its order.");
 }
 
 }  // namespace swept::python

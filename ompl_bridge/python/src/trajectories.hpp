@@ -4,6 +4,8 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "swept/robot_model/joint_trajectory.hpp"
 #include "swept/robot_model/piecewise_polynomial.hpp"
@@ -14,6 +16,10 @@ namespace swept::python {
 
 /// The curve of a swept.Trajectory or a swept.Curve. Throws ArgumentTypeError for all else.
 PiecewisePolynomial curveOf(const pybind11::object& trajectory, const char* argument);
+/// Of a swept.Trajectory, for whoever has these variables, in this order: throws
+/// std::invalid_argument for one of others.
+PiecewisePolynomial curveOf(const pybind11::object& trajectory, const char* argument,
+                            const std::vector<std::string>& variables);
 
 /// What to find out about a curve, from the arguments of Python. `limits` may be null; `contact`:
 /// swept.MotionQuery or None.

@@ -183,8 +183,15 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference) {
-  return makeCheckerWith(rulesOf(args).over(model.weakerRules), args, model, group,
-                         std::move(world), warnings, true, reference);
+  const CollisionRules rules = rulesOf(args);
+  for (const std::string& name : idlePatterns(rules, *model.robot, model.attached, *world))
+    warnings("swept: warning: a rule names '" + name +
+             "', which is the name of no link, attached body or body of the world");
+  for (const std::string& text : idleStanding(args, *model.robot, group))
+    warnings("swept: warning: --stand '" + text + "': group '" + group.name +
+             "' moves these joints itself");
+  return makeCheckerWith(rules.over(model.weakerRules), args, model, group, std::move(world),
+                         warnings, true, reference);
 }
 
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "command_line/exit_code.hpp"
+#include "rules/name_pattern.hpp"
 
 namespace swept {
 namespace {
@@ -71,6 +72,21 @@ CollisionRules rulesIn(const World& world, const CollisionRules& rules, const Ro
     for (const std::string& name : {rule.bodyA, rule.bodyB})
       if (!isOfTheRobot(name, robot, attached) && !isIn(world, name)) result = result.without(name);
   return result;
+}
+
+std::vector<std::string> idlePatterns(const CollisionRules& rules, const Robot& robot,
+                                      const std::vector<AttachedBody>& attached,
+                                      const World& world) {
+  std::vector<std::string> idle;
+  for (const CollisionRules::Rule& rule : rules.rules())
+    for (const std::string& name : {rule.bodyA, rule.bodyB}) {
+      const auto fits = [&name](const auto& body) { return detail::matches(name, body.name); };
+      if (detail::isPattern(name) && std::ranges::none_of(robot.links(), fits) &&
+          std::ranges::none_of(attached, fits) && std::ranges::none_of(world.bodies(), fits) &&
+          std::ranges::none_of(world.obstacles(), fits))
+        idle.push_back(name);
+    }
+  return idle;
 }
 
 NamesOfBodies::NamesOfBodies(const CollisionRules& rules, const Robot& robot,

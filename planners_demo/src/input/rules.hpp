@@ -18,6 +18,12 @@ CollisionRules rulesOf(const Arguments& args);
 CollisionRules rulesIn(const World& world, const CollisionRules& rules, const Robot& robot,
                        const std::vector<AttachedBody>& attached);
 
+/// The names with a `*` in the rules that are the name of no link, no attached body and no body of
+/// the world: such a rule does nothing.
+std::vector<std::string> idlePatterns(const CollisionRules& rules, const Robot& robot,
+                                      const std::vector<AttachedBody>& attached,
+                                      const World& world);
+
 /// Names in rules that are neither a link's nor an attached body's, and that no world so far has as
 /// the name of a body.
 class NamesOfBodies {

@@ -22,6 +22,7 @@ namespace swept {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";
 /// Warnings of values that were taken to a limit; more are counted.
 constexpr std::size_t kMostRemarks = 10;
 /// Bytes of a line: far more than any robot's values. Larger: files that are no text.
@@ -56,6 +57,11 @@ class LineStates {
     for (int number = 1; std::getline(stream, line); ++number) {
       if (line.size() > kMostLine)
         throw InputError(name, number, "the line is too long for a state");
+      if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, kUtf8Mark.size());
+      // Else a remark would hide the states behind it.
+      if (line.find('\r') < line.size() - 1)
+        throw InputError(name, number,
+                         "a carriage return is within the line; a line ends with a line feed");
       line.erase(std::min(line.find('#'), line.size()));
       if (line.find_last_not_of(kBlanks) == std::string::npos) continue;
       line.erase(line.find_last_not_of(kBlanks) + 1);

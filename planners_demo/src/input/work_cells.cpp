@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/work_cells.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -44,6 +45,19 @@ std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& 
     for (std::size_t i = 0; i < q.size(); ++i) all[group.variables[i]] = q[i];
   }
   return all;
+}
+
+std::vector<std::string> idleStanding(const Arguments& args, const Robot& robot,
+                                      const Group& moving) {
+  const auto moves = [&moving](int variable) {
+    return std::ranges::find(moving.variables, variable) != moving.variables.end();
+  };
+  std::vector<std::string> idle;
+  for (const std::string& text : args.standing) {
+    const Group& group = chooseGroup(robot, text.substr(0, text.find('=')));
+    if (std::ranges::all_of(group.variables, moves)) idle.push_back(text);
+  }
+  return idle;
 }
 
 }  // namespace swept

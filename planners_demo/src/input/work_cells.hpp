@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line/arguments.hpp"
 #include "swept/robot_model/robot.hpp"
@@ -22,5 +23,9 @@ ComposedRobot composedCell(const Arguments& args, const LoadOptions& options);
 std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& robot,
                                             std::optional<Eigen::VectorXd> before,
                                             const LoadOptions& options);
+
+/// Those of --stand that do nothing, since `moving` moves all that their group does.
+std::vector<std::string> idleStanding(const Arguments& args, const Robot& robot,
+                                      const Group& moving);
 
 }  // namespace swept

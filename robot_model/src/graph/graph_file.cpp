@@ -165,6 +165,7 @@ class GraphReader {
     WorldChange change;
     std::vector<std::string> same;
     for (const JsonPlace& body : place.elements()) {
+      body.allowOnly({"name", "digest"});
       const std::string name = body.at("name").text(), digest = body.at("digest").text();
       if (std::ranges::find(names_, name) != names_.end())
         body.fail("is a second body '" + foreignText(name) + "'");
@@ -202,11 +203,13 @@ class GraphReader {
 
   void readBlocked(const JsonPlace& place, ProvenGraphData& graph) const {
     for (const JsonPlace& blocked : place.elements()) {
+      blocked.allowOnly({"motion", "by"});
       const JsonPlace number = blocked.at("motion");
       std::vector<MotionBlock>& blocks =
           graph.blocks[indexOf(number, graph.motions.size(), "motion")];
       if (!blocks.empty()) number.fail("is " + number.shown() + " a second time");
       for (const JsonPlace& by : blocked.at("by").elements()) {
+        by.allowOnly({"body", "verdict"});
         const JsonPlace body = by.at("body"), verdict = by.at("verdict");
         if (std::ranges::find(names_, body.text()) == names_.end())
           body.fail("is " + body.shown() + ", which is none of bodies");

@@ -19,7 +19,6 @@ namespace {
 /// by up to half of the last place that they are rounded to, in single precision or with six
 /// decimals, and two of them by twice that. For a mesh that is small in its unit six decimals are
 /// few: the tolerance is no more than 1e-4 of its size.
-/// that. Of a mesh that is small in its unit six decimals are few: no more than 1e-4 of its size.
 double roundingOf(const MeshFileContent& content) {
   constexpr double kDecimals = 2e-6;
   constexpr double kUsualWidths = 10.0;

@@ -141,7 +141,8 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
 
 /// Compares what assimp made of a file with the file's summary.
 void requireWhole(const MeshSummary& summary, const MeshFileContent& content) {
-  constexpr double kSame = 1e-4;  // of the largest coordinate: a thousand times single precision
+  // Of the largest coordinate: a thousand times single precision, and what is of no use.
+  constexpr double kSame = 1e-4, kMostError = 1e-2;
   if (content.triangles.size() != summary.triangles) {
     throw MeshFileError("cannot be read: it has " + std::to_string(summary.triangles) +
                         " triangles, and assimp makes " + std::to_string(content.triangles.size()) +
@@ -158,12 +159,17 @@ void requireWhole(const MeshSummary& summary, const MeshFileContent& content) {
       std::max(summary.box.min().cwiseAbs().maxCoeff(), summary.box.max().cwiseAbs().maxCoeff());
   const double beyond = std::max((summary.box.min() - box.min()).maxCoeff(),
                                  (box.max() - summary.box.max()).maxCoeff());
+  if (!(content.error >= 0.0)) refuseContent();
+  if (!(content.error <= kMostError * largest)) {
+    throw MeshFileError("cannot be read: in single precision its nodes place it only to within " +
+                        formatNumber(content.error) + " m; at most " +
+                        formatNumber(kMostError * largest) + " m are allowed");
+  }
   // The test fails for NaN.
-  if (!(beyond <= kSame * largest)) {
+  if (!(beyond <= kSame * largest + content.error)) {
     throw MeshFileError("cannot be read: its faces reach no farther than " + extent(summary.box) +
                         ", and those that assimp makes of them " + extent(box));
   }
-  if (!(content.error >= 0.0 && content.error <= kSame * largest)) refuseContent();
 }
 
 ChildLimits limitsFor(std::size_t bytes) {

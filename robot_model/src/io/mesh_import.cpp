@@ -49,29 +49,38 @@ class NodePlacement {
  public:
   /// The transform of `node`, a child of this node.
   NodePlacement of(const aiNode& node) const {
-    // Each entry is made of a unit quaternion, a scale and a translation in some 30 roundings, all
-    // of them together as one matrix.
-    NodePlacement own = *this;
     const Eigen::Matrix4d matrix = toEigen(node.mTransformation);
-    if (matrix.isIdentity(0.0)) return own;
+    if (matrix.isIdentity(0.0)) return *this;
+    const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
+    const double offset = matrix.topRightCorner<3, 1>().stableNorm();
+    // The entries are made of a unit quaternion and a scale in some 30 roundings of the length of
+    // their column, or are those of the file. The offset is that of the file.
+    const double linearError =
+        (linear.isIdentity(0.0) ? kNumberRoundings : kNodeRoundings * linear.stableNorm()) *
+        kSingle;
+    constexpr double kNormError = 1e-12;
+    const double stretch = linear.jacobiSvd().singularValues()[0] * (1.0 + kNormError);
+    NodePlacement own;
     own.file_from_node_ = file_from_node_ * matrix;
-    own.reach_ += stretch_ * matrix.topRightCorner<3, 1>().norm();
-    own.stretch_ *= matrix.topLeftCorner<3, 3>().norm();
-    own.steps_ += kNodeRoundings * kSingle;
+    own.offsetError_ =
+        offsetError_ + linearError_ * offset + stretch_ * kNumberRoundings * kSingle * offset;
+    own.linearError_ = linearError_ * (stretch + linearError) + stretch_ * linearError;
+    own.stretch_ = stretch_ * stretch;
     return own;
   }
   Eigen::Vector3d operator()(const aiVector3D& v) const {
     return (file_from_node_ * Eigen::Vector4d(v.x, v.y, v.z, 1.0)).head<3>();
   }
   /// Bound on the error of points no farther than this from the node's origin.
-  double error(double distance) const { return steps_ * (stretch_ * distance + reach_); }
+  double error(double distance) const {
+    return offsetError_ + (linearError_ + stretch_ * kSingle) * distance;
+  }
 
  private:
   Eigen::Matrix4d file_from_node_ = Eigen::Matrix4d::Identity();
-  /// A point at distance d from the node's origin is at most stretch_ d + reach_ from the file's
-  /// origin, whatever cancels. The Frobenius norm bounds how much a matrix stretches.
-  double stretch_ = 1.0, reach_ = 0.0;
-  double steps_ = kSingle;  ///< of that; at first for the coordinates themselves
+  double stretch_ = 1.0;  ///< bound on the norm of its linear part
+  /// Bounds on the norms of the errors of its linear part and of its offset.
+  double linearError_ = 0.0, offsetError_ = 0.0;
 };
 
 void appendMesh(const aiMesh& mesh, const NodePlacement& place, MeshFileContent& content) {

@@ -53,8 +53,9 @@ class PointFile {
 class LineReader {
  public:
   explicit LineReader(const PointFile& file) : LineReader(file.source(), file.bytes()) {}
-  /// Both outlive it.
-  LineReader(const InputSource& source, std::string_view bytes) : source_(source), bytes_(bytes) {}
+  /// Both outlive it. A mark of UTF-8 in front is passed over.
+  LineReader(const InputSource& source, std::string_view bytes)
+      : source_(source), bytes_(bytes), offset_(bytes.starts_with("\xef\xbb\xbf") ? 3 : 0) {}
   /// Moves to the next line; false: there is none. Throws InputError for a line that is too long.
   bool next();
   /// Moves to the next line that has more than white space.
@@ -71,7 +72,7 @@ class LineReader {
   std::string_view bytes_;
   std::string_view line_;
   int number_ = 0;
-  std::size_t offset_ = 0;
+  std::size_t offset_;
 };
 
 /// The content of a file, without the points that are not finite.

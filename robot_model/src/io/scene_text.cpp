@@ -136,12 +136,14 @@ World SceneTextReader::read() {
   for (;;) {
     owner_.clear();
     const Token& marker = next("'*' or '.'");
-    if (marker.text == ".") break;
+    if (marker.text == ".") break;  // MoveIt reads no further
     if (marker.text != "*") {
       fail(marker.line, "'" + marker.text + "' where '*' (an object) or '.' (the end) should be");
     }
     readObject();
   }
+  if (at_ != tokens_.size())
+    fail(tokens_[at_].line, "'" + tokens_[at_].text + "' follows the '.' that ends the scene");
   warnings_.flush();
   return std::move(world_);
 }

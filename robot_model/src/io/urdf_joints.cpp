@@ -69,6 +69,9 @@ void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string
     joint.DeleteChild(axis);  // the axis has no meaning there, and exporters write zeros
     return;
   }
+  // Old files have zeros there. Another angle may be meant to turn the axis, which no reader does.
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  if (xml_.vector(*axis, "rpy", owner, zero) == zero) axis->DeleteAttribute("rpy");
   refuseUnknownAttributes(*axis, {"xyz"}, owner);
   const Eigen::Vector3d value = xml_.vector(*axis, "xyz", owner, Eigen::Vector3d::UnitX());
   const double largest = value.cwiseAbs().maxCoeff();

@@ -218,9 +218,11 @@ inline constexpr double kPointShare = 1e-15;
 ///@{
 /// Coordinates that came in single precision.
 
-/// Of a node's transform in a mesh file, in the unit of the file: a unit quaternion, a scale and a
-/// translation as one matrix, in some 30 roundings.
+/// Of the linear part of a node's transform in a mesh file, of its Frobenius norm: a unit quaternion
+/// and a scale as one matrix, in some 30 roundings of each entry, of the length of its column.
 inline constexpr double kNodeRoundings = 64.0;
+/// Of a number of such a file: a node's offset, or a linear part that is the identity.
+inline constexpr double kNumberRoundings = 4.0;
 ///@}
 
 }  // namespace swept::detail

@@ -40,7 +40,11 @@ std::string shortMessage(std::string_view message) {
     text += message.substr(blank, next - blank);
     message.remove_prefix(next);
   }
-  return text.size() > kMost ? withoutMiddle(text, kFirst, kLast) : text;
+  if (text.size() > kMost) text = withoutMiddle(text, kFirst, kLast);
+  // Where a message is a C string, what follows a zero would be lost.
+  for (std::size_t at = 0; (at = text.find('\0', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u0000");
+  return text;
 }
 
 }  // namespace swept::detail

@@ -8,7 +8,7 @@ namespace swept::detail {
 
 /// Shortens a message: names and values of a file may be as long as the file. A word of more than
 /// 512 bytes, and a message of more than 4000 bytes, lose their middle. The error comes first in a
-/// message, the allowed values last. UTF-8 characters stay whole.
+/// message, the allowed values last. UTF-8 characters stay whole; a zero byte becomes `\u0000`.
 std::string shortMessage(std::string_view message);
 
 }  // namespace swept::detail
