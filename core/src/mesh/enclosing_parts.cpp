@@ -106,7 +106,7 @@ class Farthest {
       take(k, other.height_[k], {other.point_[0][k], other.point_[1][k], other.point_[2][k]});
   }
 
-  /// m^3, near the volume of their hull. 0 without points.
+  /// m^3, near the volume of their hull; not negative. 0 without points.
   double volume() const {
     if (std::isinf(height_[0])) return 0.0;
     const auto at = [this](int k) {
@@ -115,7 +115,8 @@ class Farthest {
     };
     double sum = 0.0;
     for (const auto& [a, b, c] : Sphere38::get().faces) sum += at(a).dot(at(b).cross(at(c)));
-    return sum / 6.0;
+    // The directions are few: of points near a plane the sum may be negative.
+    return std::max(sum / 6.0, 0.0);
   }
 
  private:
