@@ -65,26 +65,29 @@ ompl::base::PlannerPtr make(const ompl::base::SpaceInformationPtr& si) {
 struct Entry {
   std::string_view name;
   Maker maker;
+  /// Whether it draws samples with OMPL's PathLengthDirectInfSampler, which exists for a few
+  /// spaces.
+  bool informed = false;
 };
 
 // CertifiedConnect, and every geometric planner of OMPL that needs nothing but the space. TSRRT,
 // VFRRT, XXL, QRRT, Lightning and Thunder need a task space, a vector field, a decomposition, a
 // sequence of spaces or a store of earlier paths, which a name does not give.
 constexpr std::array kPlanners = {
-    Entry{"ABITstar", make<og::ABITstar>},
-    Entry{"AITstar", make<og::AITstar>},
+    Entry{"ABITstar", make<og::ABITstar>, true},
+    Entry{"AITstar", make<og::AITstar>, true},
     Entry{"AnytimePathShortening", make<og::AnytimePathShortening>},
     Entry{"BFMT", make<og::BFMT>},
-    Entry{"BITstar", make<og::BITstar>},
+    Entry{"BITstar", make<og::BITstar>, true},
     Entry{"BKPIECE1", make<og::BKPIECE1>},
     Entry{"BiEST", make<og::BiEST>},
     Entry{"BiRLRT", make<og::BiRLRT>},
     Entry{"BiTRRT", make<og::BiTRRT>},
-    Entry{"CForest", make<og::CForest>},
+    Entry{"CForest", make<og::CForest>, true},
     Entry{"CertifiedConnect", make<CertifiedConnect>},
     Entry{"EST", make<og::EST>},
     Entry{"FMT", make<og::FMT>},
-    Entry{"InformedRRTstar", make<og::InformedRRTstar>},
+    Entry{"InformedRRTstar", make<og::InformedRRTstar>, true},
     Entry{"KPIECE1", make<og::KPIECE1>},
     Entry{"LBKPIECE1", make<og::LBKPIECE1>},
     Entry{"LBTRRT", make<og::LBTRRT>},
@@ -103,7 +106,7 @@ constexpr std::array kPlanners = {
     Entry{"RRTsharp", make<og::RRTsharp>},
     Entry{"RRTstar", make<og::RRTstar>},
     Entry{"SBL", make<og::SBL>},
-    Entry{"SORRTstar", make<og::SORRTstar>},
+    Entry{"SORRTstar", make<og::SORRTstar>, true},
     Entry{"SPARS", make<og::SPARS>},
     Entry{"SPARStwo", make<og::SPARStwo>},
     Entry{"SST", make<og::SST>},
@@ -118,6 +121,20 @@ std::string lower(std::string_view text) {
   std::ranges::transform(result, result.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return result;
+}
+
+/// OMPL says so only once it plans. CForest plans in threads of its own, where an exception ends
+/// the process.
+void requireInformedSamples(std::string_view planner, const ompl::base::StateSpace& space) {
+  namespace ob = ompl::base;
+  const int type = space.getType();
+  if (type == ob::STATE_SPACE_REAL_VECTOR || type == ob::STATE_SPACE_SE2 ||
+      type == ob::STATE_SPACE_SE3)
+    return;
+  throw UsageError(
+      "planner " + std::string(planner) + " cannot plan in space '" + space.getName() +
+      "': OMPL's informed samples are of joints with limits alone, or of one planar or "
+      "floating joint; allowed there: planners that draw none, such as RRTstar");
 }
 
 }  // namespace
@@ -143,6 +160,7 @@ ompl::base::PlannerPtr makePlanner(std::string_view name,
                                    const ompl::base::SpaceInformationPtr& si) {
   const auto* entry = std::ranges::find(kPlanners, name, &Entry::name);
   if (entry == kPlanners.end()) throw UsageError("no planner '" + std::string(name) + "'");
+  if (entry->informed) requireInformedSamples(name, *si->getStateSpace());
   const ompl::base::PlannerPtr planner = entry->maker(si);
   useNearestStates(*planner);
   return planner;

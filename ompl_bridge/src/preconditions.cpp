@@ -56,25 +56,27 @@ std::vector<std::string> variablesOf(const Robot& robot, const Group& group) {
   return names;
 }
 
+const ob::StateSpace& unwrapped(const ob::StateSpace& space) {
+  const auto* wrapper = dynamic_cast<const ob::CForestStateSpaceWrapper*>(&space);
+  if (wrapper == nullptr) return space;
+  return *wrapper->getCForestInstance()->getSpaceInformation()->getStateSpace();
+}
+
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
-  // CForest's paths have a space that forwards everything to the one that it was given.
-  if (const auto* wrapper = dynamic_cast<const ob::CForestStateSpaceWrapper*>(&space)) {
-    const auto& si = wrapper->getCForestInstance()->getSpaceInformation();
-    return requireSpaceOf(checker, *si->getStateSpace());
-  }
+  const ob::StateSpace& inner = unwrapped(space);
   std::vector<int> wanted, given;
-  const std::string refused = "state space `" + space.getName() +
+  const std::string refused = "state space `" + inner.getName() +
                               "` is not built as makeStateSpace does for group `" +
                               checker.group().name + "`";
-  if (!interpolatesAsCertified(space)) {
+  if (!interpolatesAsCertified(inner)) {
     throw std::invalid_argument(refused + ": its motions are not those that are certified");
   }
   unprojectedSpace(checker.robot(), checker.group())->computeSignature(wanted);
-  space.computeSignature(given);
+  inner.computeSignature(given);
   if (given != wanted) throw std::invalid_argument(refused);
   // A left and a right arm have the same layout. Whoever built a space by hand must know whose it
   // is.
-  const std::vector<std::string>* variables = variablesOf(space);
+  const std::vector<std::string>* variables = variablesOf(inner);
   if (variables != nullptr && *variables != variablesOf(checker.robot(), checker.group()))
     throw std::invalid_argument(refused + ": it is of another group's variables");
 }

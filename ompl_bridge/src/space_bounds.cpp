@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "preconditions.hpp"
 #include "state_layout.hpp"
 
 namespace swept::detail {
@@ -51,13 +52,14 @@ void addBounds(const ob::StateSpace& space, SubspaceKind kind, SpaceBounds& boun
 }  // namespace
 
 SpaceBounds boundsOf(const ob::StateSpace& space, const Checker& checker) {
+  const ob::StateSpace& inner = unwrapped(space);
   const std::vector<JointRun> runs = jointRuns(checker.robot(), checker.group());
   const bool single = isSingleRealVector(runs);
   SpaceBounds bounds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto index = static_cast<unsigned int>(i);
     const ob::StateSpace* part =
-        single ? &space : space.as<ob::CompoundStateSpace>()->getSubspace(index).get();
+        single ? &inner : inner.as<ob::CompoundStateSpace>()->getSubspace(index).get();
     addBounds(*part, runs[i].kind, bounds);
   }
   return bounds;

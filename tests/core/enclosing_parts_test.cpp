@@ -133,6 +133,27 @@ TEST(EnclosingParts, TwoThinPiecesFarApart) {
     ASSERT_TRUE(holds(*mesh.enclosingParts(), 0, pointOfTriangle(mesh, random)));
 }
 
+/// Parts of triangles that lie apart are nearly flat: their volumes are as small as roundings.
+TEST(EnclosingParts, ContainTrianglesThatLieApart) {
+  std::mt19937 random(6);
+  int divided = 0;
+  for (int i = 0; i < 200; ++i) {
+    Soup soup;
+    const int triangles = 1 + i % 4;
+    for (int k = 0; k < triangles; ++k) {
+      for (int corner = 0; corner < 3; ++corner) soup.vertices.push_back(uniformPoint(random, 1.0));
+      soup.triangles.emplace_back(3 * k, 3 * k + 1, 3 * k + 2);
+    }
+    const TriangleMesh mesh =
+        TriangleMesh::build(soup.vertices, soup.triangles).withEnclosingParts();
+    if (mesh.enclosingParts() == nullptr) continue;
+    ++divided;
+    for (int k = 0; k < 50; ++k)
+      ASSERT_TRUE(holds(*mesh.enclosingParts(), 0, pointOfTriangle(mesh, random))) << i;
+  }
+  EXPECT_GT(divided, 120);
+}
+
 TEST(EnclosingParts, BoxesContainTheHulls) {
   std::mt19937 random(4);
   for (const TriangleMesh& mesh : samples(random)) {

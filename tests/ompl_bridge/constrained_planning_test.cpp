@@ -101,6 +101,22 @@ class ConstrainedPlanning : public testing::Test {
   const Checker free_{robot_, "arm", withPost()};
 };
 
+/// Its paths have a space of CForest's own around that of the setup.
+TEST_F(ConstrainedPlanning, ShortensThePathsOfAForest) {
+  std::vector<double> goal = start_;
+  goal[0] += 0.2;
+  const auto checker = level(10.0);
+  const auto setup = makeSimpleSetup(checker);
+  setStartAndGoal(*setup, *checker, start_, goal);
+  setup->setPlanner(makePlanner("CForest", setup->getSpaceInformation()));
+  ASSERT_TRUE(setup->solve(0.5) == ob::PlannerStatus::EXACT_SOLUTION);
+  shortenPath(setup->getSolutionPath());
+  const Path path = configurationsOf(setup->getSolutionPath(), *checker);
+  ASSERT_GE(path.size(), 2U);
+  expectProven(path, *checker);
+  EXPECT_LT(worstTilt(path, *checker), 10.0 * kDegree);
+}
+
 TEST_F(ConstrainedPlanning, KeepsTheHandLevelAroundAPost) {
   std::vector<double> goal = start_;
   goal[0] += 1.5;

@@ -6,8 +6,14 @@
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "fixtures.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/usage_error.hpp"
 
 namespace swept::test {
 namespace {
@@ -89,6 +95,32 @@ TEST_F(Planning, CompoundSpacesPlanWithProjections) {
   ASSERT_TRUE(setup->solve(20.0) == ob::PlannerStatus::EXACT_SOLUTION);
   for (const MotionCertificate& certificate : certifyPath(setup->getSolutionPath(), *checker)) {
     EXPECT_EQ(certificate.verdict, Verdict::Free);
+  }
+}
+
+/// OMPL's informed samples do not exist in spaces with continuous joints. CForest would find out in
+/// a thread of its own, and end the process.
+TEST_F(Planning, InformedPlannersRefuseCompoundSpaces) {
+  const auto world = std::make_shared<const World>();
+  const auto limited = makeSimpleSetup(std::make_shared<const Checker>(gantry(), "all", world));
+  const auto mixed = makeSimpleSetup(std::make_shared<const Checker>(everyJoint(), "all", world));
+  const std::vector<std::string> informed{"ABITstar", "AITstar",         "BITstar",
+                                          "CForest",  "InformedRRTstar", "SORRTstar"};
+  for (const std::string& name : plannerNames()) {
+    EXPECT_NE(makePlanner(name, limited->getSpaceInformation()), nullptr) << name;
+    std::string message;
+    try {
+      EXPECT_NE(makePlanner(name, mixed->getSpaceInformation()), nullptr) << name;
+    } catch (const UsageError& error) {
+      message = error.what();
+    }
+    const bool isInformed = std::ranges::find(informed, name) != informed.end();
+    EXPECT_EQ(message, !isInformed
+                           ? ""
+                           : "planner " + name +
+                                 " cannot plan in space 'all': OMPL's informed samples are of "
+                                 "joints with limits alone, or of one planar or floating joint; "
+                                 "allowed there: planners that draw none, such as RRTstar");
   }
 }
 

@@ -143,6 +143,27 @@ TEST(TrackingTolerance, OfAnyWidth) {
   }
 }
 
+/// What the tube of `turn` moves at the end of `slide` is beyond single precision.
+TEST(TrackingTolerance, OfASlideWithoutEnd) {
+  for (const char* end : {"1e3", "1e30", "1e60", "1e300"}) {
+    const auto robot = Robot::parse(
+        "<robot name='r'><link name='base'/><link name='arm'/><link name='ball'><collision>"
+        "<geometry><sphere radius='0.1'/></geometry></collision></link>" +
+            test::joint("turn", "revolute", "base", "arm", test::limited("0 0 1", -1.0, 1.0)) +
+            test::joint("slide", "prismatic", "arm", "ball",
+                        std::string("<axis xyz='1 0 0'/><limit lower='0' upper='") + end +
+                            "' effort='1' velocity='1'/>") +
+            "</robot>",
+        "r.urdf");
+    CheckerOptions options;
+    options.tracking = all(0.01, 0.0);
+    const Checker meets(robot, "all", boxAt({1.0, 0.0, 0.0}), options);
+    EXPECT_EQ(verdictAt(meets, {0.0, 1.0}), Verdict::Collision) << end;
+    const Checker keeps(robot, "all", boxAt({0.0, 1.0, 0.0}), options);
+    EXPECT_EQ(verdictAt(keeps, {0.0, 1.0}), Verdict::Free) << end;
+  }
+}
+
 /// The place of a planar base errs in a disc, that of a floating one in a ball.
 TEST(TrackingTolerance, OfABaseThatDrives) {
   const auto robot = test::modelRobot("rook6_cart");

@@ -17,7 +17,10 @@ std::vector<std::string> plannerNames();
 std::string plannerName(std::string_view anyCase);
 
 /// A planner with OMPL's default parameters, and NearestStates where it takes them. `name` is as
-/// plannerName() returns it; throws UsageError for another one.
+/// plannerName() returns it; throws UsageError for another one. Throws UsageError, too, where the
+/// space has continuous joints, or planar or floating ones beside others, and OMPL's informed
+/// samples, which the planner needs, do not exist: for ABITstar, AITstar, BITstar, CForest,
+/// InformedRRTstar and SORRTstar.
 ompl::base::PlannerPtr makePlanner(std::string_view name,
                                    const ompl::base::SpaceInformationPtr& si);
 

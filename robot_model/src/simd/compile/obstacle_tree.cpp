@@ -87,7 +87,7 @@ class BoxTree {
     for (int lane = 0; lane < kLanes; ++lane) {
       const bool used = lane < static_cast<int>(entries.size());
       for (int i = 0; i < 3; ++i) {
-        // Nothing overlaps an empty box.
+        // Nothing but an infinite box overlaps an empty one; the walk skips its child.
         nodes_[node].lower[i].lane[lane] =
             used ? singleBelow(entries[lane].center[i] - entries[lane].half[i]) : kInfinity;
         nodes_[node].upper[i].lane[lane] =

@@ -186,7 +186,7 @@ class WorldWalk {
         const std::int32_t child = node.child[std::countr_zero(left)];
         if (child < 0) {
           scratch_.hits.push_back({~child, kAllLanes});
-        } else {
+        } else if (child > 0) {  // 0: an empty lane, which an infinite box overlaps
           stack[pending++] = child;
         }
       }
