@@ -35,7 +35,7 @@ struct SchedulePlanOptions {
   /// s, on the clock: when the last robot rests at its goal.
   double latest = std::numeric_limits<double>::infinity();
   /// s. Each curve, known or planned, may start late by up to so much, one at a time, and still
-  /// nothing touches: PlannedSchedule::delays has the proofs.
+  /// nothing touches: PlannedSchedule::delays has the proofs. Moving obstacles keep their times.
   double delay = 0.0;
   int improvements = 2000;    ///< changes of each robot's way that are tried
   std::uint32_t seed = 1;     ///< of all random numbers
@@ -95,7 +95,7 @@ struct PlannedSchedule {
 /// variables beyond the checker's group or of another task; for another number of values or limits
 /// than variables; for values that are not finite or beyond the limits of positions; for a variable
 /// that has no limits of position and is not cyclic, and for one without limits of velocity and
-/// acceleration; for options that are not allowed; and for a delay beside moving obstacles.
+/// acceleration; and for options that are not allowed.
 PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
                              std::span<const ScheduledCurve> known = {},
                              ConfigurationView still = {}, const SchedulePlanOptions& options = {});
