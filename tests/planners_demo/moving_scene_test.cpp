@@ -143,10 +143,6 @@ TEST_F(MovingScene, CommandsWithoutAClockRefuseIt) {
   EXPECT_EQ(run("certify", {csv("slide,lift\n0,0\n1,0\n")}).err, moves + "certify" + clocks);
   if (programHasPages()) {
     EXPECT_EQ(run("view", {}).err, moves + "view" + clocks);
-    EXPECT_EQ(run("check", {"1,0", "--time", "3", "--html", "p.html"}).err,
-              kError +
-                  "--html: object 'cart' of the scene moves, which only the pages of swept "
-                  "trajectory and schedule show\n");
   }
 }
 
