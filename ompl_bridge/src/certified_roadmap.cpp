@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <queue>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "constraint_steer.hpp"
 #include "preconditions.hpp"
 #include "spread_sampler.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -135,18 +138,25 @@ CertifiedRoadmap::CertifiedRoadmap(std::shared_ptr<const Checker> checker,
   std::vector<double> samples(kSamplesAtOnce * dimension);
   std::vector<Verdict> verdicts(kSamplesAtOnce);
   Workspace workspace(*checker);
+  std::optional<detail::ConstraintSteer> steer;
+  if (!checker->options().constraints.empty()) steer.emplace(places->space, *checker);
   ob::State* const state = places->space->allocState();
   for (std::size_t drawn = 0;
        graph_.states() < options.states && drawn < kMostSamples * options.states &&
        !options.stop.stop_requested();
        drawn += kSamplesAtOnce) {
+    std::size_t count = 0;
     for (std::size_t i = 0; i < kSamplesAtOnce; ++i) {
       sampler.sample(state);
+      // Hardly any sample keeps constraints that are tight.
+      if (steer && !steer->project(state)) continue;
       places->conversion.toConfiguration(
-          state, ConfigurationSpan(samples.data() + i * dimension, dimension));
+          state, ConfigurationSpan(samples.data() + count * dimension, dimension));
+      ++count;
     }
-    checker->checkStates(samples, verdicts, workspace);
-    for (std::size_t i = 0; i < kSamplesAtOnce && graph_.states() < options.states; ++i) {
+    checker->checkStates(std::span(samples).first(count * dimension),
+                         std::span(verdicts).first(count), workspace);
+    for (std::size_t i = 0; i < count && graph_.states() < options.states; ++i) {
       if (verdicts[i] != Verdict::Free) continue;
       const ConfigurationView q(samples.data() + i * dimension, dimension);
       graph_.addState(q);

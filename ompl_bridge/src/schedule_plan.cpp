@@ -29,6 +29,8 @@ using Status = PlannedSchedule::Status;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kRestResolution = 1e-3;  // s
+/// Of the longest way that was found. Half of it is about when two meet that exchange their places.
+constexpr double kFirstWait = 0.5;
 
 /// A robot that stays where it is.
 PiecewisePolynomial resting(const Eigen::VectorXd& q) {
@@ -45,11 +47,13 @@ struct Way {
 /// Finds the way of one robot beside curves that are known.
 class WaySearch {
  public:
+  /// `wait`: s, on the clock. It stays at its start until then, if it may.
   WaySearch(const ScheduleChecker& checker, const OwnTask& own, const SchedulePlanOptions& options,
-            std::function<bool()> stop)
+            double wait, std::function<bool()> stop)
       : checker_(checker),
         own_(own),
         options_(options),
+        wait_(wait),
         stop_(std::move(stop)),
         workspace_(checker.checker()) {}
 
@@ -99,14 +103,18 @@ class WaySearch {
   }
 
   Way search(const std::vector<detail::TimedGoal>& goals) {
+    const bool waits = wait_ > 0.0 && wait_ < options_.latest &&
+                       rest(own_.start, 0.0, wait_).verdict == Verdict::Free;
+    const double begin = waits ? wait_ : 0.0;
     detail::SpaceTimeSearch trees(checker_, own_.space, options_.seed);
     std::vector<detail::TimedKnot> knots =
-        trees.run({own_.start, 0.0}, goals, options_.latest, stop_);
+        trees.run({own_.start, begin}, goals, options_.latest, stop_);
     if (knots.empty()) return {};
-    knots = detail::improved(
-        checker_, own_.space, std::move(knots),
-        {.begin = 0.0, .restFrom = goals[trees.goal()].restFrom, .attempts = options_.improvements},
-        options_.seed, stop_);
+    knots = detail::improved(checker_, own_.space, std::move(knots),
+                             {.begin = begin,
+                              .restFrom = goals[trees.goal()].restFrom,
+                              .attempts = options_.improvements},
+                             options_.seed, stop_);
     // A robot that is at its goal stays there.
     const std::optional<PiecewisePolynomial> curve =
         knots.size() == 1 ? resting(knots.front().q)
@@ -120,6 +128,7 @@ class WaySearch {
   const ScheduleChecker& checker_;
   const OwnTask& own_;
   const SchedulePlanOptions& options_;
+  const double wait_;  ///< s
   const std::function<bool()> stop_;
   Workspace workspace_;
 };
@@ -144,22 +153,60 @@ class PriorityPlanner {
   }
 
   PlannedSchedule run() {
-    std::vector<std::size_t> order(own_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     while (true) {
-      ways_.assign(own_.size(), std::nullopt);
-      const std::optional<std::size_t> failed = planInOrder(order);
-      if (!failed) return finish(std::move(order));
-      if (isLate() || own_.size() == 1 || isHopeless_) return std::move(found_);
-      if (!goalsAreApart_ && goalsMeet(order)) return std::move(found_);
-      if (failed == order.front()) slice_ *= 2.0;
-      order.erase(std::ranges::find(order, *failed));
-      order.insert(failed == found_.order.front() ? order.end() : order.begin(), *failed);
+      if (std::optional<PlannedSchedule> done = tryOrders()) return *std::move(done);
+      ++round_;
+      // In every other round the first robot waits, longer each time. Between these, searches that
+      // gave up may have needed more time.
+      if (round_ % 2 == 0)
+        slice_ *= 2.0;
+      else
+        wait_ = wait_ > 0.0 ? 2.0 * wait_ : kFirstWait * longestWay_;
     }
   }
 
  private:
   bool isLate() const { return options_.stop.stop_requested() || Clock::now() >= deadline_; }
+
+  using Order = std::vector<std::size_t>;
+
+  /// One round: up to as many orders as there are tasks, none twice. No value: none of them gave a
+  /// schedule, and the next round may.
+  std::optional<PlannedSchedule> tryOrders() {
+    Order order(own_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::set<Order> tried;
+    while (true) {
+      ways_.assign(own_.size(), std::nullopt);
+      const std::optional<std::size_t> failed = planInOrder(order);
+      if (!failed) return finish(std::move(order));
+      for (const std::optional<JointTrajectory>& way : ways_)
+        if (way) longestWay_ = std::max(longestWay_, way->points.back().time);
+      if (isLate() || own_.size() == 1 || isHopeless_) return std::move(found_);
+      if (!goalsAreApart_ && goalsMeet(order)) return std::move(found_);
+      if (failed == order.front()) slice_ *= 2.0;
+      tried.insert(order);
+      if (tried.size() == own_.size()) return std::nullopt;
+      order = nextOrder(std::move(order), *failed, tried);
+    }
+  }
+
+  /// Who found no way goes first or, if it did, last. Where that has been tried, the first order
+  /// that has not.
+  static Order nextOrder(Order order, std::size_t failed, const std::set<Order>& tried) {
+    const bool wasFirst = failed == order.front();
+    order.erase(std::ranges::find(order, failed));
+    order.insert(wasFirst ? order.end() : order.begin(), failed);
+    if (!tried.contains(order)) return order;
+    std::ranges::sort(order);
+    while (tried.contains(order)) std::ranges::next_permutation(order);
+    return order;
+  }
+
+  /// s. How long the robot of this task waits: only the first one does, in every other round.
+  double waitOf(std::size_t task, const Order& order) const {
+    return round_ % 2 == 1 && task == order.front() ? wait_ : 0.0;
+  }
 
   /// Variables of tasks are in the checker's group, and in one task only. Others have a curve or
   /// stand still.
@@ -190,17 +237,17 @@ class PriorityPlanner {
   }
 
   /// The task that found no way, if one did not.
-  std::optional<std::size_t> planInOrder(const std::vector<std::size_t>& order) {
+  std::optional<std::size_t> planInOrder(const Order& order) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const std::size_t task = order[i];
       const std::span later(order.begin() + static_cast<std::ptrdiff_t>(i) + 1, order.end());
-      Way way = planOne(task, {});
+      Way way = planOne(task, {}, waitOf(task, order));
       const bool startsApart = way.status != Status::StartNotFree;
       if (!way.trajectory && startsApart && !later.empty() && !isLate()) {
         std::vector<std::string> ignored;
         for (const std::size_t other : later)
           ignored.insert(ignored.end(), own_[other].names.begin(), own_[other].names.end());
-        Way without = planOne(task, ignored);
+        Way without = planOne(task, ignored, waitOf(task, order));
         isHopeless_ = i == 0 && without.status == Status::GoalNotFree;
         if (without.trajectory || isHopeless_) way = std::move(without);
       }
@@ -224,7 +271,7 @@ class PriorityPlanner {
   }
 
   /// Whether two goals, each the only one of its task, cannot be taken at once. Says so.
-  bool goalsMeet(const std::vector<std::size_t>& order) {
+  bool goalsMeet(const Order& order) {
     for (std::size_t a = 0; a < own_.size(); ++a) {
       for (std::size_t b = a + 1; b < own_.size(); ++b) {
         if (own_[a].goals.size() > 1 || own_[b].goals.size() > 1) continue;
@@ -258,16 +305,16 @@ class PriorityPlanner {
   /// s. With something to spare: at the end, certifyDelays() divides delays otherwise.
   double plannedDelay() const { return options_.delay > 0.0 ? 1.02 * options_.delay + 2e-3 : 0.0; }
 
-  Way planOne(std::size_t task, const std::vector<std::string>& ignored) {
+  Way planOne(std::size_t task, const std::vector<std::string>& ignored, double wait) {
     const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored,
                                  plannedDelay());
     const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                             std::chrono::duration<double>(slice_)));
     const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
-    return WaySearch(beside, own_[task], options_, stop).run();
+    return WaySearch(beside, own_[task], options_, wait, stop).run();
   }
 
-  PlannedSchedule finish(std::vector<std::size_t> order) {
+  PlannedSchedule finish(Order order) {
     const std::vector<ScheduledCurve> all = curves();
     PlannedSchedule result;
     result.curves.assign(all.begin() + std::ssize(known_), all.end());
@@ -289,7 +336,10 @@ class PriorityPlanner {
   const std::span<const ScheduledCurve> known_;
   const SchedulePlanOptions& options_;
   const Clock::time_point deadline_;
-  double slice_;  ///< s, for one robot
+  double slice_;             ///< s, for one robot
+  double wait_ = 0.0;        ///< s, of the first robot, in every other round
+  double longestWay_ = 0.0;  ///< s, of all that were found
+  std::size_t round_ = 0;
   std::vector<OwnTask> own_;
   std::vector<double> still_;
   std::vector<std::optional<JointTrajectory>> ways_;  ///< by task

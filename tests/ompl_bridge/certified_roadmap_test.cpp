@@ -6,6 +6,7 @@
 #include <ompl/util/Console.h>
 
 #include <chrono>
+#include <cmath>
 #include <random>
 #include <stop_token>
 #include <thread>
@@ -42,6 +43,33 @@ class CertifiedRoadmapTest : public testing::Test {
   std::shared_ptr<const Checker> checker_ =
       std::make_shared<const Checker>(gantry(), "all", worldOf(wallWithWindow()));
 };
+
+TEST_F(CertifiedRoadmapTest, KeepsConstraintsThatNoSampleKeepsByItself) {
+  // Within 1 mm of a plane through the window: of all states, one in a thousand or fewer.
+  constexpr double kHeight = 0.5, kTolerance = 1e-3;
+  const auto task =
+      TaskConstraint::onPlane("ball", {0.0, 0.0, kHeight}, Eigen::Vector3d::UnitZ(), kTolerance);
+  const auto onPlane = std::make_shared<const Checker>(checker_->withConstraints(task));
+  CertifiedRoadmap roadmap(onPlane, {.states = 1500, .neighbours = 8});
+  ASSERT_EQ(roadmap.graph().states(), 1500U);
+  EXPECT_EQ(roadmap.components(), 1U);
+  for (std::size_t i = 0; i < roadmap.graph().states(); ++i)
+    EXPECT_LE(std::abs(roadmap.graph().state(i)[2] - kHeight), kTolerance);
+  Workspace workspace(*onPlane);
+  const std::vector<double> start{-0.8, -0.5, kHeight}, goal{0.8, -0.5, kHeight};
+  const auto path = roadmap.path(start, goal, workspace);
+  ASSERT_TRUE(path);
+  EXPECT_GT(path->size(), 2U);
+  expectProven(*path, *onPlane);
+  EXPECT_FALSE(roadmap.path(kStart, kGoal, workspace));  // these are off the plane
+  // In another world they are kept as they were.
+  const auto shut = std::make_shared<const Checker>(onPlane->withBody(
+      "shutter", makeBox({0.02, 0.5, 0.5}), Eigen::Isometry3d(Eigen::Translation3d(0, 0.5, 0.5))));
+  const ProvenGraph::Change change = roadmap.update(shut);
+  EXPECT_FALSE(change.everything);
+  EXPECT_GT(change.blocked, 0U);
+  EXPECT_FALSE(roadmap.path(start, goal, workspace));
+}
 
 TEST_F(CertifiedRoadmapTest, FindsTheWindowWhileItIsOpen) {
   CertifiedRoadmap roadmap(checker_, {.states = 3000, .neighbours = 8});

@@ -23,6 +23,10 @@ def crate_at(clock):
     return WAY[-1][1:]
 
 
+SCENE = [ROOK, "--group", "arm", "--scene", "models/moving_scenes/conveyor.yaml"]
+REACHING = "0,1.3,0,0.3,0,0,0"  # to where the crate is at 4 s
+
+
 class MovingPage(BrowserTest):
     """A crate on a conveyor."""
 
@@ -50,6 +54,37 @@ class MovingPage(BrowserTest):
                 self.assert_crate(clock + time)
             self.assertIn("crate; the clock shows %.3f s at the begin" % clock,
                           self.text("#curve-facts"))
+            self.assert_quiet()
+
+    def test_states_show_it_at_their_time(self):
+        for clock, verdict in ((4, "1 free, 1 in collision"), (6.5, "all free")):
+            self.open("check at %g" % clock, ["check", *SCENE, "tucked", REACHING, "--time", str(clock)])
+            self.assertEqual(self.text("#verdict"), "2 states: " + verdict)
+            for state in (0, 1):
+                self.js("swept.playback.setTime(arguments[0])", state)
+                self.assert_crate(clock)
+            self.assertIn("at %g s" % clock, self.text("#list"))
+            self.assert_quiet()
+        # By hand the robot moves, and the crate stays.
+        self.js("const v = swept.kinematics.valuesAt(1).slice(); v[0] += 0.5; swept.playback.setValues(v)")
+        self.assert_crate(6.5)
+        self.assertEqual(self.text("#now"), "moved by hand: not checked")
+
+    def test_motions_take_its_time(self):
+        run = self.open("motion", ["motion", *SCENE, "tucked", REACHING, "tucked", "--times", "4.5,6,9"])
+        self.assertEqual(run.returncode, 0)
+        self.assertAlmostEqual(self.js("return swept.data.duration"), 4.5, delta=1e-9)
+        for time in (0, 0.7, 1.5, 2.2, 4.5):
+            self.js("swept.playback.setTime(arguments[0])", time)
+            self.assert_crate(4.5 + time)
+            self.assertIn("at %.3f s" % (4.5 + time), self.text("#clock"))
+        self.assert_quiet()
+
+    def test_info_shows_where_it_begins(self):
+        for name, words in (("grouped", SCENE), ("whole", [ROOK, *SCENE[3:]])):
+            self.open("info " + name, ["info", *words])
+            self.assert_crate(0)
+            self.assertIn("default state at 0 s", self.text("#list"))
             self.assert_quiet()
 
     def test_it_is_seen_to_move(self):

@@ -111,6 +111,40 @@ TEST_F(RoadmapProgram, IsTakenToAnotherWorld) {
   EXPECT_EQ(back["free"], built_["free"]);
 }
 
+TEST_F(RoadmapProgram, KeepsConstraints) {
+  // Past the post, on a line beside it.
+  const std::string high = folder_.path("high.json"), path = folder_.path("path.json");
+  const std::vector<std::string> kept{"--stay-on", "ball:line:0,0.8,0,1,0,0:0.002"};
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.end(), kept.begin(), kept.end());
+    return options;
+  };
+  const nlohmann::json built = jsonOf(roadmap(
+      "build",
+      with({"--scene", world_, "--states", "60", "--neighbours", "6", "-o", high, "--json"})));
+  EXPECT_EQ(built["states"], 60);
+  EXPECT_EQ(built["components"], 1);
+  const Outcome found = roadmap(
+      "query", with({"-0.8,0.8", "0.8,0.8", "--scene", world_, "--roadmap", high, "-o", path}));
+  ASSERT_EQ(found.exitCode, 0) << found.err << found.out;
+  const Outcome verified = runSwept({"verify", path});
+  EXPECT_EQ(verified.exitCode, 0) << verified.err << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("at every instant: "));
+  // Off the line there is no path, and without the constraint it is another roadmap.
+  EXPECT_EQ(roadmap("query", with({"-0.8,0.7", "0.8,0.8", "--scene", world_, "--roadmap", high}))
+                .exitCode,
+            1);
+  const Outcome other =
+      roadmap("query", {"-0.8,0.8", "0.8,0.8", "--scene", world_, "--roadmap", high});
+  EXPECT_EQ(other.exitCode, 3);
+  EXPECT_THAT(other.err, HasSubstr("constraints"));
+  EXPECT_EQ(roadmap("update", with({"--scene", moved_, "--roadmap", high, "-o", high})).exitCode,
+            0);
+  // A roadmap has no first state.
+  EXPECT_THAT(roadmap("build", {"--keep-level", "ball", "-o", high}).err,
+              HasSubstr("--keep-level"));
+}
+
 TEST_F(RoadmapProgram, SaysWhatDiffers) {
   const std::string error = "swept: error: ";
   const auto refusal = [&](std::vector<std::string> options) {

@@ -188,6 +188,41 @@ TEST_F(ScheduleProgram, PlansSeveralGroups) {
   EXPECT_THAT(blocked.out, HasSubstr("not found: north: no way was found in 0.2 s"));
 }
 
+TEST_F(ScheduleProgram, ProvesDelaysBesideAnObjectThatIsNeverLate) {
+  // It passes the crossing from above, within 0.2 m of it from 2.8 s to 3.2 s.
+  write("cart.yaml", R"(world:
+  collision_objects:
+    - id: cart
+      primitives: [{type: box, dimensions: [0.2, 0.2, 0.2]}]
+      primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]
+      motion:
+        - {time: 1, position: [0, 0, 2]}
+        - {time: 5, position: [0, 0, -2]}
+)");
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--scene", file("cart.yaml"), "--json"});
+    const Outcome run = schedule(more);
+    return nlohmann::json::parse(run.out, nullptr, false);
+  };
+  write("away.csv", "time,slide\n0,-2\n1,-2\n");
+  const std::string north = "north=" + file("away.csv");
+  // East leaves the crossing at 1.2 s, so it may be late by 1.6 s.
+  const auto late = with({"east=" + file("pass.csv"), north, "--late", "east=2"});
+  EXPECT_EQ(late["delays"][0]["verdict"], "collision");
+  EXPECT_NEAR(late["delays"][0]["proven"].get<double>(), 1.6, 5e-3);
+  EXPECT_EQ(late["delays"][0]["contact"]["witness"]["body_b"], "cart");
+  // Half a second later at a third slower: it leaves the crossing at 0.5 s + 1.6 s.
+  const auto slow =
+      with({"east=" + file("pass.csv"), north, "--late", "east=0.5", "--slow", "east=33"});
+  EXPECT_EQ(slow["delays"][0]["verdict"], "free");
+  // What is planned leaves room: as early as it can be, or after the cart.
+  const auto planned =
+      with({north, "--plan", "east=-1..1", "--max-acceleration", "1", "--late", "east=0.5"});
+  EXPECT_EQ(planned["schedule"]["verdict"], "free");
+  EXPECT_EQ(planned["delays"][0]["verdict"], "free");
+  EXPECT_EQ(planned["delays"][0]["proven"], 0.5);
+}
+
 TEST_F(ScheduleProgram, RefusesWhatIsNoSchedule) {
   const std::string pass = file("pass.csv");
   const auto err = [&](const std::vector<std::string>& more) {

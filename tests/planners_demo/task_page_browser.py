@@ -58,6 +58,16 @@ class TaskPageTest(BrowserTest):
         return self.js("return JSON.parse(document.getElementById('data').textContent).phases"
                        ".map((p) => [p.label, p.begin, p.end])")
 
+    def test_a_bar_that_moves_is_where_its_clock_says(self):
+        file, _ = self.make("bar", ["bar"])
+        self.browser.get(file.as_uri())
+        self.ready()
+        for time in (0, 0.5, 1.9, 2.25, 3, 1):
+            self.at(time)
+            self.assertEqual(self.js("return task.state.phase"), 1 if time >= 2 else 0)
+            self.assert_near(self.box("bar")[:3], [0, time + 2 - 3, 0.5], 1e-4)
+        self.assertEqual(self.browser.get_log("browser"), [])
+
     def test_bodies_are_where_the_task_has_them(self):
         phases = self.phases()
         self.assertEqual([p[0] for p in phases], ["reach", "lift", "carry", "lower", "leave"])

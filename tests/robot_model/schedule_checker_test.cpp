@@ -135,6 +135,54 @@ TEST(ScheduleChecker, DelaysAreProvenUpToTheTruth) {
   }
 }
 
+TEST(ScheduleChecker, ObstaclesKeepTheirTimesWhileTheCurveIsLate) {
+  // It passes the origin at 4 s. They meet if they pass less than 0.4 s apart.
+  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
+  const Checker checker =
+      checkerOf(crossing())
+          .withObstacle({.name = "cart",
+                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+                         .waypoints = {{3.0, at(-1.0)}, {5.0, at(1.0)}}});
+  const std::vector<double> still{0.0, 3.0, 3.0};
+  for (const double delay : {0.1, 0.5, 1.0}) {
+    const ScheduleChecker beside(checker, {"east"}, {}, still, {}, delay);
+    EXPECT_EQ(beside.end(), 5.0);
+    Workspace workspace(beside.checker());
+    const auto verdict = [&](double passes) {
+      return beside.certify(pass(passes - 1.0), workspace).verdict;
+    };
+    // Later is never nearer. The rooms need up to 0.02 m more, on either side.
+    for (const double passes : {4.45, 4.6, 6.0}) EXPECT_EQ(verdict(passes), Verdict::Free) << delay;
+    for (const double passes : {3.55 - delay, 2.0 - delay})
+      EXPECT_EQ(verdict(passes), Verdict::Free) << delay;
+    for (const double passes : {3.61 - delay, 3.9 - delay, 3.61, 4.0, 4.39})
+      EXPECT_NE(verdict(passes), Verdict::Free) << delay << ' ' << passes;
+    EXPECT_EQ(verdict(3.9), Verdict::Collision);
+    // Only some delays are in contact, and they are found.
+    EXPECT_EQ(verdict(3.9 - delay), Verdict::Collision) << delay;
+    // Its own place while it waits: the cart comes to it before it has left.
+    const Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(1, 2);
+    EXPECT_EQ(beside.certify({{0.0, 3.75 - delay}, {origin}}, workspace).verdict, Verdict::Free);
+    EXPECT_NE(beside.certify({{0.0, 3.85 - delay}, {origin}}, workspace).verdict, Verdict::Free);
+  }
+}
+
+TEST(ScheduleChecker, ALargerMarginOfAPairIsKeptWithADelay) {
+  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
+  const Checker checker =
+      checkerOf(crossing())
+          .withObstacle({.name = "cart",
+                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+                         .waypoints = {{3.0, at(-1.0)}, {5.0, at(1.0)}}})
+          .withRules(CollisionRules().margin("east*", "cart", 0.1));
+  const ScheduleChecker beside(checker, {"east"}, {}, std::vector<double>{0.0, 3.0, 3.0}, {}, 0.5);
+  Workspace workspace(beside.checker());
+  // Without a margin 0.4 s are enough. With one, the corners pass 0.1 m apart where the cubes are
+  // 0.27 m apart along both axes.
+  EXPECT_NE(beside.certify(pass(3.5), workspace).verdict, Verdict::Free);
+  EXPECT_EQ(beside.certify(pass(3.6), workspace).verdict, Verdict::Free);
+}
+
 TEST(ScheduleChecker, AClockOfYearsLeavesRangesThatAreTooWide) {
   // Rounding alone is then wider than what ranges are divided to.
   const std::vector<ScheduledCurve> others{

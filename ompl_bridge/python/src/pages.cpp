@@ -79,7 +79,7 @@ void bindTaskPage(py::module_& module) {
            "`facts`: pairs of a name and a value.")
       .def("add_phase", &addPhase, py::arg("phase"), py::arg("limits") = nullptr,
            "Adds a TaskPhase, which begins where the one before ends, with RateLimits. Raises "
-           "ArgumentError for one that begins earlier, and for\nmoving obstacles.")
+           "ArgumentError for one that begins earlier.")
       .def_property_readonly("html", &TaskPage::html,
                              "The whole page: one file that any browser opens from disk. Raises "
                              "ArgumentError without a phase.")

@@ -150,8 +150,7 @@ void bindScheduleChecker(py::module_& module) {
            "variables about which nothing is\nknown yet: pairs that they move against the own ones "
            "are left out. `delay`: s; what is proven holds also if the own curve, or all of the\n"
            "others, start late by up to so much. Raises ArgumentError for names that are "
-           "unknown or have no value, and for a delay that is\nnegative or beside moving "
-           "obstacles.")
+           "unknown or have no value, and for a delay that is\nnegative.")
       .def(
           "certify",
           [](const ScheduleChecker& self, const py::object& curve, const py::object& query) {

@@ -172,7 +172,7 @@ ExitCode runCertify(const Arguments& args) {
   const Model model = loadModel(args, warnings);
   const Task task = pathTask(args, model, warnings);
   requirePageOf(args, task.states.size() - 1);
-  dump.setFirstState(task.states.front().q);
+  dump.setFirstState(task.states.front());
   const std::optional<PathFile> file = proofFile(args, task);
   PathCertificate path;
   {

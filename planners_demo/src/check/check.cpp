@@ -20,8 +20,7 @@ ExitCode runCheck(const Arguments& args) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
-  dump.requireStanding(*task.checker);
-  dump.setFirstState(task.states.front().q);
+  dump.setFirstState(task.states.front());
   if (areMany(task)) return checkMany(args, model, task, dump, warnings);
   Workspace workspace(*task.checker);
   ExitCode code = ExitCode::Free;

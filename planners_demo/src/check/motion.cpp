@@ -39,8 +39,7 @@ ExitCode runMotion(const Arguments& args) {
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
   if (task.states.size() < 2) throw UsageError("motion: two states or more are needed");
-  dump.requireStanding(*task.checker);
-  dump.setFirstState(task.states.front().q);
+  dump.setFirstState(task.states.front());
   if (areMany(task)) return moveThroughMany(args, model, task, dump, warnings);
   Workspace workspace(*task.checker);
   ExitCode code = ExitCode::Free;

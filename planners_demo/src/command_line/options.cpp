@@ -185,17 +185,18 @@ void addTrackingOptions(CLI::App& app, Arguments& args) {
       ->type_name("FILE.yaml");
 }
 
-void addConstraintOptions(CLI::App& app, Arguments& args) {
+void addConstraintOptions(CLI::App& app, Arguments& args, bool hasFirstState) {
   app.add_option("--keep-upright", args.keepUpright,
                  "an axis of the link (x, y, z, -x, -y or -z; default z) points up, within so many "
                  "degrees (default 5), at every instant (repeatable)")
       ->type_name("LINK[:DEG[:AXIS]]")
       ->allow_extra_args(false);
-  app.add_option("--keep-level", args.keepLevel,
-                 "what points up in the link at the first state keeps pointing up, likewise "
-                 "(repeatable)")
-      ->type_name("LINK[:DEG]")
-      ->allow_extra_args(false);
+  if (hasFirstState)
+    app.add_option("--keep-level", args.keepLevel,
+                   "what points up in the link at the first state keeps pointing up, likewise "
+                   "(repeatable)")
+        ->type_name("LINK[:DEG]")
+        ->allow_extra_args(false);
   app.add_option("--stay-in", args.stayIn,
                  "the link's origin stays in box:X,Y,Z (full sides), sphere:R or cylinder:R,L at "
                  "this place in the model frame (repeatable)")

@@ -32,8 +32,8 @@ void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
 void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what);
 /// --tracking and --controllers.
 void addTrackingOptions(CLI::App& app, Arguments& args);
-/// --keep-upright, --keep-level, --stay-in and --stay-on.
-void addConstraintOptions(CLI::App& app, Arguments& args);
+/// --keep-upright, --stay-in, --stay-on and, for subcommands with a first state, --keep-level.
+void addConstraintOptions(CLI::App& app, Arguments& args, bool hasFirstState = true);
 /// --limits.
 CLI::Option* addLimitsOption(CLI::App& app, Arguments& args);
 /// --max-acceleration and --speed, for `user`: the option without which nothing is timed.

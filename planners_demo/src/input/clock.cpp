@@ -49,10 +49,6 @@ void requireClock(const Arguments& args, const World& world) {
     throw UsageError(movesText(world) + ", and swept " + std::string(args.command->name) +
                      " has no clock; swept check --time, motion --times, trajectory and schedule "
                      "have one, and swept schedule --plan plans beside what moves");
-  const bool timed = args.command == &kTrajectoryCommand || args.command == &kScheduleCommand;
-  if (!args.page.file.empty() && !timed)
-    throw UsageError("--html: " + movesText(world) +
-                     ", which only the pages of swept trajectory and schedule show");
 }
 
 void refuseClock(const Arguments& args, const World& world) {

@@ -11,8 +11,7 @@ namespace swept {
 /// s. Times are at most so far from 0.
 inline constexpr double kMostTime = 1e6;
 
-/// Throws UsageError where an object of the scene moves, and the subcommand has no clock or would
-/// show it on a page of states.
+/// Throws UsageError where an object of the scene moves, and the subcommand has no clock.
 void requireClock(const Arguments& args, const World& world);
 /// Throws UsageError for an option of the clock where nothing moves.
 void refuseClock(const Arguments& args, const World& world);

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
@@ -28,6 +29,17 @@ PageContent::State defaultState(const Robot& robot, const Group& group) {
   const Eigen::VectorXd all = robot.defaultState();
   PageContent::State state{.label = "default state", .q = {}};
   for (const int variable : group.variables) state.q.push_back(all[variable]);
+  return state;
+}
+
+/// Beside objects that move: at the time at which the first of them begins to.
+PageContent::State whenItBegins(const World& world, PageContent::State state) {
+  if (world.obstacles().empty()) return state;
+  double begin = std::numeric_limits<double>::infinity();
+  for (const MovingObstacle& body : world.obstacles())
+    begin = std::min(begin, body.waypoints.front().time);
+  state.q.push_back(begin);
+  state.label += " at " + shortNumber(begin) + " s";
   return state;
 }
 
@@ -82,7 +94,9 @@ void writePage(const Arguments& args, const Model& model, const Checker* checker
     const World& world = checker == nullptr ? *model.world : checker->world();
     const VisualModel visuals = visualsOf(model);
     Json json = pageJson(*model.robot, world, checker, content, visuals);
-    if (isLive(args)) json["live"] = liveJson(args, *checker, firstOf(content));
+    // Only the program has a clock.
+    if (isLive(args) && world.obstacles().empty())
+      json["live"] = liveJson(args, *checker, firstOf(content));
     writeWholeFile(args.page.file, htmlOf(json));
   }
   if (!args.json) printText("page written to " + escapedLine(args.page.file) + "\n");
@@ -152,12 +166,14 @@ void writeInfoPage(const Arguments& args, const Model& model, const Checker* che
   if (args.page.file.empty()) return;
   const Robot& robot = *model.robot;
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
+  const World& world = checker == nullptr ? *model.world : checker->world();
+  const PageContent::State state = whenItBegins(world, defaultState(robot, group));
   PageContent content;
-  if (checker != nullptr) content = statesContent(*checker, {defaultState(robot, group)});
+  if (checker != nullptr) content = statesContent(*checker, {state});
   content.tone = PageContent::Tone::Plain;
   content.headline = std::to_string(robot.links().size()) + " links, " +
                      std::to_string(robot.joints().size()) + " joints";
-  content.states = {defaultState(robot, group)};
+  content.states = {state};
   writePage(args, model, checker, content);
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "command_line/exit_code.hpp"
 #include "input/inputs.hpp"
@@ -59,13 +60,6 @@ void QueryDump::requireNames(const Checker& checker) const {
     requireUtf8(checker.robot().variables()[v].name, where_);
 }
 
-void QueryDump::requireStanding(const Checker& checker) const {
-  const std::vector<MovingObstacle>& moving = checker.world().obstacles();
-  if (folder_.empty() || moving.empty()) return;
-  throw UsageError(where_ + ": object '" + moving.front().name +
-                   "' of the scene moves, and the queries that are written have no times");
-}
-
 void QueryDump::state(const Checker& checker, const std::string& label,
                       const std::vector<double>& q, Verdict verdict) {
   MotionCertificate found;
@@ -79,10 +73,13 @@ void QueryDump::motion(const Checker& checker, const std::string& label,
   write(checker, label, {from, to}, certificate);
 }
 
-void QueryDump::setFirstState(const std::vector<double>& q) {
+void QueryDump::setFirstState(const LabelledState& state) {
   const bool asTyped =
       !args_.degrees && std::ranges::none_of(args_.states, isStateList) && args_.path.empty();
-  if (!asTyped) args_.states = {stateText(q)};
+  if (asTyped) return;
+  std::vector<double> q = state.q;
+  if (state.time) q.pop_back();
+  args_.states = {stateText(q)};
 }
 
 void QueryDump::setProblem(const std::string& set, int index) {
@@ -97,7 +94,13 @@ void QueryDump::write(const Checker& checker, const std::string& label,
   requireNames(checker);
   RobotQuestion question;
   question.inputs = args_;
-  question.states = states;
+  for (std::vector<double> q : states) {
+    if (!checker.world().obstacles().empty()) {
+      question.times.push_back(q.back());
+      q.pop_back();
+    }
+    question.states.push_back(std::move(q));
+  }
   question.expected = found.verdict;
   question.inputs.group = checker.group().name;
   question.jointNames = variableNames(checker.robot(), checker.group());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line/arguments.hpp"
+#include "input/task.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace CLI {
@@ -28,16 +29,14 @@ class QueryDump {
   /// the work than at the first answer that is to be written.
   void requireNames(const Checker& checker) const;
 
-  /// Throws UsageError where an object of the world moves: a file has no times.
-  void requireStanding(const Checker& checker) const;
-
+  /// Configurations are as the checker takes them: beside objects that move with their time.
   void state(const Checker& checker, const std::string& label, const std::vector<double>& q,
              Verdict verdict);
   void motion(const Checker& checker, const std::string& label, const std::vector<double>& from,
               const std::vector<double>& to, const MotionCertificate& certificate);
 
   /// What was typed in place of states is not to be read again: the first state stands for it.
-  void setFirstState(const std::vector<double>& q);
+  void setFirstState(const LabelledState& state);
   /// The answers from now on are in the world of this problem.
   void setProblem(const std::string& set, int index);
 

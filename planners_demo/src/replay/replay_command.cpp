@@ -22,6 +22,7 @@ const Command kReplayCommand{
     .example = "swept replay models/cases.json",
     .exitCodes = "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.",
     .addOptions = addReplayOptions,
-    .run = runReplay};
+    .run = runReplay,
+    .hasClock = true};
 
 }  // namespace swept

@@ -39,6 +39,15 @@ void requireJoints(const RobotQuestion& question, const Checker& checker) {
                      checker.group().name + "' has " + joined(names));
 }
 
+/// A case has times exactly where an object of its scene moves.
+void requireTimes(const RobotQuestion& question, const World& world) {
+  if (world.obstacles().empty() == question.times.empty()) return;
+  const std::string key = question.states.size() == 1 ? "'time'" : "'times'";
+  throw UsageError(question.times.empty() ? "object '" + world.obstacles().front().name +
+                                                "' of the scene moves, and the case has no " + key
+                                          : key + ": no object of the scene moves");
+}
+
 void judge(Verdict found, const RobotQuestion& question, Answer& answer) {
   answer.text = std::string(toString(found));
   if (question.expected == Verdict::Undecided || found == question.expected)
@@ -63,10 +72,12 @@ void ask(const RobotQuestion& question, const Warn& warn, Answer& answer) {
   using Clock = std::chrono::steady_clock;
   const std::shared_ptr<const Checker> checker = checkerOf(question);
   requireJoints(question, *checker);
+  requireTimes(question, checker->world());
   std::vector<std::vector<double>> states;
   for (const std::vector<double>& values : question.states)
     states.push_back(
         readState(checker->robot(), checker->group(), valuesText(values), "its values", warn));
+  for (std::size_t i = 0; i < question.times.size(); ++i) states[i].push_back(question.times[i]);
   Workspace workspace(*checker);
   const Clock::time_point start = Clock::now();
   if (states.size() == 1)

@@ -57,8 +57,10 @@ RobotQuestion readRobotQuestion(const std::string& query, const JsonValue& entry
   const std::size_t joints = question.jointNames.size();
   if (query == "state") {
     question.states = {readValues(entry.at("state"), joints)};
+    if (entry.has("time")) question.times = {entry.at("time").number()};
   } else {
     question.states = {readValues(entry.at("from"), joints), readValues(entry.at("to"), joints)};
+    if (entry.has("times")) question.times = readValues(entry.at("times"), 2);
   }
   const JsonValue expected = entry.at("expected");
   question.expected = readVerdict(expected.at("verdict"));
@@ -75,6 +77,8 @@ std::string robotCaseText(const std::string& id, const RobotQuestion& question,
   item["joint_names"] = question.jointNames;
   item[motion ? "from" : "state"] = toJson(question.states.front());
   if (motion) item["to"] = toJson(question.states.back());
+  if (!question.times.empty())
+    item[motion ? "times" : "time"] = motion ? toJson(question.times) : Json(question.times[0]);
   item["expected"] = expectedJson(question);
   std::string text = "{\"version\": 1, \"cases\": [{";
   for (const auto& [key, value] : item.items())

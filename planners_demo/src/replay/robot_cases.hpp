@@ -16,7 +16,8 @@ struct RobotQuestion {
   Arguments inputs;                         ///< robot, world, group and rules
   std::vector<std::string> jointNames;      ///< the group's variables; empty: not said
   std::vector<std::vector<double>> states;  ///< one; two for a motion
-  Verdict expected = Verdict::Undecided;    ///< Undecided: not known, so that all answers are right
+  std::vector<double> times = {};         ///< s, of each state, where an object of the scene moves
+  Verdict expected = Verdict::Undecided;  ///< Undecided: not known, so that all answers are right
   double contactAfter = 0.0;  ///< t, of a motion in collision: its first contact is no earlier
   double contactBy = 1.0;     ///< t, and no later
 };

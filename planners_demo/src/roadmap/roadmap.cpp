@@ -10,6 +10,7 @@
 #include "certificate/path_files.hpp"
 #include "certificate/path_json.hpp"
 #include "command_line/commands.hpp"
+#include "input/constraints.hpp"
 #include "input/inputs.hpp"
 #include "input/task.hpp"
 #include "input/unchecked.hpp"
@@ -27,10 +28,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of the group and the world on the command line. Throws UsageError.
+/// Of the group, the world and the constraints on the command line. Throws UsageError.
 std::shared_ptr<const Checker> roadmapChecker(const Arguments& args, const Model& model,
                                               Warnings& warnings) {
-  auto checker = makeChecker(args, model, chooseGroup(*model.robot, args), model.world, warnings);
+  const auto checker = withConstraintsOf(
+      args, makeChecker(args, model, chooseGroup(*model.robot, args), model.world, warnings), {});
   warnOfNothing(*checker, warnings);
   return checker;
 }

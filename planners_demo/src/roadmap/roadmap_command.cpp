@@ -10,6 +10,7 @@ void addCommonOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
+  addConstraintOptions(app, args, false);
 }
 
 void addLastOptions(CLI::App& app, Arguments& args) {

@@ -78,9 +78,13 @@ swept.data = (function () {
     const scale = Math.min(30, Math.max(4, total / 0.45)) / total;
     for (const motion of data.motions) motion.duration *= scale;
   }
-  // Those of curves have their own time.
+  // Those of curves have their own time. Beside bodies that move, straight motions take the time that
+  // their clock takes.
   function layOutMotions() {
-    if (!data.isTimed) layOutClock();
+    if (data.motions.every((motion) => motion.clock))
+      for (const motion of data.motions)
+        motion.duration = Math.max(1e-3, Math.abs(motion.clock[1] - motion.clock[0]));
+    else if (!data.isTimed) layOutClock();
     let start = 0;
     for (const motion of data.motions) {
       motion.start = start;
@@ -127,8 +131,11 @@ swept.data = (function () {
   data.momentOf = (motion, t) => (motion.curve ? motion.curve.knots[0] + t * motion.duration : t);
   // What the clock of bodies that move shows at a time of the page's.
   data.clockAt = function (time) {
-    const at = data.locate(time), motion = data.motions[at.index];
-    return motion.curve.clock + data.momentOf(motion, at.t);
+    const at = data.locate(time);
+    if (!data.isPath) return data.states[at.index].clock;
+    const motion = data.motions[at.index];
+    return motion.curve ? motion.curve.clock + data.momentOf(motion, at.t)
+                        : motion.clock[0] + at.t * (motion.clock[1] - motion.clock[0]);
   };
   data.momentText = (motion, t) => (motion.curve ? data.momentOf(motion, t).toFixed(3) + ' s'
                                                  : 't ' + t.toFixed(3));

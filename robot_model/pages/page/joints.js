@@ -116,7 +116,8 @@ swept.joints = (function () {
 
   function byHandText(values) {
     const known = kinematics.nearestKnown(values);
-    if (known === null) return 'moved by hand: not checked';
+    // Beside bodies that move, what is known of a configuration is known at another time.
+    if (known === null || data.moving.length > 0) return 'moved by hand: not checked';
     if (known.amount < 1e-9) return 'as at ' + knownText(known.time);
     const variable = tree.variables[known.variable];
     return 'moved by hand: not checked. The nearest that is, with ' + variable.name + ' ' +

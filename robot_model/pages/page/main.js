@@ -116,7 +116,7 @@
     if (state.values || data.isTimed)
       swept.scene.poseLinks(swept.kinematics.poses(state.values || swept.kinematics.valuesAt(state.time)));
     else swept.scene.pose(at.frame);
-    if (data.moving.length > 0 && data.isTimed) swept.scene.poseMoving(data.clockAt(state.time));
+    if (data.moving.length > 0) swept.scene.poseMoving(data.clockAt(state.time));
     // Contacts are of what was checked.
     const known = state.values === null && !swept.scene.isMoved();
     const entry = !known ? null : (data.isPath ? data.motions : data.states)[at.index];

@@ -333,7 +333,7 @@ swept.scene = (function () {
     links.forEach((group) => scene.add(group));
     data.bodies.forEach(addBody);
     pose(0);
-    if (data.isTimed) poseMoving(data.clockAt(0));
+    if (data.moving.length > 0) poseMoving(data.clockAt(0));
     bounds.copy(measure());
     const middle = bounds.getCenter(new THREE.Vector3());
     const size = bounds.getSize(new THREE.Vector3()).length();

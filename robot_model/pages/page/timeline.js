@@ -146,7 +146,8 @@ swept.timeline = (function () {
   function clockText(at) {
     const motion = data.motions[at.index];
     if (motion.curve) return data.momentOf(motion, at.t).toFixed(3) + ' / ' + data.momentText(motion, 1);
-    return (at.index + 1) + ' / ' + data.motions.length + ', t ' + at.t.toFixed(3);
+    const moment = (at.index + 1) + ' / ' + data.motions.length + ', t ' + at.t.toFixed(3);
+    return motion.clock ? moment + ', at ' + data.clockAt(data.timeOf(at.index, at.t)).toFixed(3) + ' s' : moment;
   }
 
   function showPath(state) {

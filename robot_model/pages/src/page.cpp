@@ -14,22 +14,30 @@ namespace swept {
 
 namespace {
 
-std::vector<double> checkedState(const Checker& checker, const std::string& label,
-                                 std::span<const double> state) {
-  const std::size_t expected = checker.group().variables.size();
-  if (state.size() != expected)
+std::vector<double> checkedValues(const Checker& checker, const std::string& label,
+                                  std::span<const double> state, bool withTime) {
+  const std::size_t variables = checker.group().variables.size();
+  if (state.size() != variables + (withTime ? 1 : 0))
     throw std::invalid_argument("'" + label + "' has " + std::to_string(state.size()) +
                                 " values; group '" + checker.group().name + "' has " +
-                                std::to_string(expected) + " variables");
+                                std::to_string(variables) + " variables" +
+                                (withTime ? ", and the time of what moves comes after them" : ""));
   if (!std::ranges::all_of(state, [](double value) { return std::isfinite(value); }))
     throw std::invalid_argument("'" + label + "' has a value that is not finite");
   return {state.begin(), state.end()};
 }
 
+/// A configuration as the checker takes it.
+std::vector<double> checkedState(const Checker& checker, const std::string& label,
+                                 std::span<const double> state) {
+  return checkedValues(checker, label, state, !checker.world().obstacles().empty());
+}
+
 void requireSizeOf(const Checker& checker, const std::string& label,
                    const PiecewisePolynomial& curve) {
   const Eigen::VectorXd begin = curve.position(curve.begin());
-  static_cast<void>(checkedState(checker, label, {begin.data(), std::size_t(begin.size())}));
+  static_cast<void>(
+      checkedValues(checker, label, {begin.data(), std::size_t(begin.size())}, false));
 }
 
 /// Orientations have to be some.
@@ -135,7 +143,7 @@ void Page::addTrajectory(const std::string& label, const PiecewisePolynomial& cu
   requireSizeOf(checker, label, curve);
   requireDrawable(checker, label, curve);
   for (const std::vector<double>& state : polyline)
-    static_cast<void>(checkedState(checker, "polyline of " + label, state));
+    static_cast<void>(checkedValues(checker, "polyline of " + label, state, false));
   TrajectoryQuery asked = query;
   asked.clearances = false;  // the parts have them
   Workspace workspace(checker);

@@ -53,10 +53,6 @@ void TaskPage::addPhase(const std::string& label, std::shared_ptr<const Checker>
     return inDefaultEnvironment(
         [&] { addPhase(label, std::move(checker), curve, query, changes); });
   }
-  if (checker != nullptr && !checker->world().obstacles().empty())
-    throw std::invalid_argument(
-        "'" + label + "': a page of a task shows no moving obstacles, and " + "the world has '" +
-        checker->world().obstacles().front().name + "'");
   PageOptions own = data_->options;
   own.headline = {};
   Page page(std::move(checker), std::move(own));

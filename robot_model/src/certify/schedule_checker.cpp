@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "certify/moved_pairs.hpp"
+#include "certify/obstacle_room.hpp"
 #include "certify/schedule_tube.hpp"
 #include "rounding/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -75,6 +76,18 @@ struct ScheduleChecker::Data {
   struct Tube {
     double half = 0.0;
     Checker checker;
+    /// Has room for moving obstacles that are as early or late, too. No value: there are none.
+    std::optional<Checker> besideObstacles = {};
+  };
+  /// When something moves: others on time, and perhaps moving obstacles.
+  struct Moves {
+    double first = std::numeric_limits<double>::infinity();  ///< s
+    double last = 0.0;                                       ///< s
+  };
+  /// Who is late by how much (s) beside the own curve: all others, and perhaps moving obstacles.
+  struct Shift {
+    double late = 0.0;
+    bool withObstacles = false;
   };
 
   Data(const Checker& whole, std::vector<std::string> ownNames, std::vector<ScheduledCurve> curves,
@@ -88,21 +101,20 @@ struct ScheduleChecker::Data {
     for (std::size_t v = 0; v < still.size(); ++v) rest[static_cast<Eigen::Index>(v)] = still[v];
     for (const ScheduledCurve& curve : others) {
       placesOfOthers.push_back(placesIn(whole, curve.variables));
-      firstMove = std::min(firstMove, curve.start + curve.slowdown * curve.curve.begin());
-      lastMove = std::max(lastMove, curve.start + curve.slowdown * curve.curve.end());
+      moves.first = std::min(moves.first, curve.start + curve.slowdown * curve.curve.begin());
+      moves.last = std::max(moves.last, curve.start + curve.slowdown * curve.curve.end());
     }
-    end = lastMove + delay;
-    for (const MovingObstacle& obstacle : whole.world().obstacles())
-      end = std::max(end, obstacle.waypoints.back().time);
+    end = moves.last + delay;
+    movesWithObstacles = moves;
+    for (const MovingObstacle& obstacle : whole.world().obstacles()) {
+      const double begins = obstacle.waypoints.front().time, ends = obstacle.waypoints.back().time;
+      movesWithObstacles.first = std::min(movesWithObstacles.first, begins);
+      movesWithObstacles.last = std::max(movesWithObstacles.last, ends);
+      largestTime = std::max({largestTime, std::abs(begins), std::abs(ends)});
+    }
+    end = std::max(end, movesWithObstacles.last);
     tubes.push_back({0.0, pairs.withTracking(detail::widened(pairs, offBy(0.0)))});
-    if (delay == 0.0) return;
-    for (double half = delay;; half *= 0.5) {
-      const std::vector<double> off = offBy(half);
-      const double widest = std::ranges::max(off);
-      const bool isLast = widest <= kNarrowest || half <= kLeastShare * delay;
-      if (isLast || widest <= kWidest) tubes.push_back({half, detail::inTube(pairs, off)});
-      if (isLast) break;
-    }
+    if (delay > 0.0) addTubes();
   }
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
@@ -133,49 +145,96 @@ struct ScheduleChecker::Data {
     return off;
   }
 
+  /// s. A range of delays, with what times on the clock round by.
+  double roundedOutward(double half) const {
+    return half + 4.0 * detail::kTimeRounding * (latest() + largestTime);
+  }
+
+  void addTubes() {
+    const bool isBesideObstacles = !pairs.world().obstacles().empty();
+    for (double half = isBesideObstacles ? 0.5 * delay : delay;; half *= 0.5) {
+      const std::vector<double> off = offBy(half);
+      const double widest =
+          std::max(std::ranges::max(off), detail::largestObstacleRoom(pairs, roundedOutward(half)));
+      const bool isLast = widest <= kNarrowest || half <= kLeastShare * delay;
+      if (isLast || widest <= kWidest) {
+        tubes.push_back({half, detail::inTube(pairs, off)});
+        if (isBesideObstacles)
+          tubes.back().besideObstacles =
+              detail::besideObstaclesWithin(tubes.back().checker, roundedOutward(half));
+      }
+      if (isLast) break;
+    }
+  }
+
   bool fitsTube(const PiecewisePolynomial& own) const {
     return own.end() <= latest() && std::ranges::max(detail::largestRates(own)) <= kMostRate &&
            std::ranges::max(detail::largestValues(own)) <= kMostValue;
   }
 
-  /// What is proven in one of the tubes from one time to another (s), where all others are late by
-  /// so much (s).
+  /// What is proven by one of the tubes' checkers from one time to another (s).
   TrajectoryCertificate certify(const PiecewisePolynomial& own, double begin, double until,
-                                double late, const Tube& tube, Workspace& workspace,
+                                const Shift& shift, const Checker& checker, Workspace& workspace,
                                 MotionQuery query) const {
     std::vector<detail::CurveOnClock> parts;
     for (std::size_t i = 0; i < others.size(); ++i)
-      parts.emplace_back(others[i].curve, others[i].start + late, others[i].slowdown,
+      parts.emplace_back(others[i].curve, others[i].start + shift.late, others[i].slowdown,
                          placesOfOthers[i]);
     parts.emplace_back(own, 0.0, 1.0, places);
-    return tube.checker.certifyTrajectory(detail::combined(parts, rest, begin, until), workspace,
-                                          {.contact = query});
+    return checker.certifyTrajectory(
+        detail::combined(parts, rest, begin, until), workspace,
+        {.contact = query, .clock = shift.withObstacles ? -shift.late : 0.0});
   }
 
-  /// The first certificate that is not Free where the others are late by `late`, give or take what
-  /// the tube has room for. Ranges without a proof are halved.
-  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, double late,
+  /// The first certificate that is not Free with a shift, give or take what the tube has room for.
+  /// Ranges without a proof are halved.
+  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, const Shift& shift,
                                                std::size_t tube, Workspace& workspace,
                                                MotionQuery query) const {
-    // While all others rest, a delay changes nothing.
+    // While nothing else moves, a delay changes nothing.
     const double half = tubes[tube].half;
-    const double begin = std::max(own.begin(), firstMove + late - half);
-    const double until = std::min(own.end(), lastMove + late + half);
+    const Moves& all = shift.withObstacles ? movesWithObstacles : moves;
+    const double begin = std::max(own.begin(), all.first + shift.late - roundedOutward(half));
+    const double until = std::min(own.end(), all.last + shift.late + roundedOutward(half));
     if (!(begin < until)) return std::nullopt;
-    TrajectoryCertificate found = certify(own, begin, until, late, tubes[tube], workspace, query);
+    const Checker& checker =
+        shift.withObstacles ? *tubes[tube].besideObstacles : tubes[tube].checker;
+    TrajectoryCertificate found = certify(own, begin, until, shift, checker, workspace, query);
     if (found.verdict == Verdict::Free) return std::nullopt;
-    if (tube + 1 == tubes.size()) return found;
-    if (auto earlier = notFree(own, late - 0.5 * half, tube + 1, workspace, query)) return earlier;
-    return notFree(own, late + 0.5 * half, tube + 1, workspace, query);
+    if (tube + 1 == tubes.size()) {
+      if (!shift.withObstacles || !found.contact) return found;
+      // Where obstacles have room, a contact may be none: it counts if there is one without.
+      TrajectoryCertificate withoutRoom =
+          certify(own, begin, until, shift, tubes.front().checker, workspace, query);
+      if (withoutRoom.contact) return withoutRoom;
+      TrajectoryCertificate open;
+      open.freeUntil = found.freeUntil;
+      open.undecided = static_cast<const TrajectoryPlace&>(*found.contact);
+      return open;
+    }
+    for (const double late : {shift.late - 0.5 * half, shift.late + 0.5 * half})
+      if (auto part = notFree(own, {late, shift.withObstacles}, tube + 1, workspace, query))
+        return part;
+    return std::nullopt;
   }
 
-  /// The same for all delays.
-  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, Workspace& workspace,
+  /// The same for all delays (s) from one to another.
+  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, double from,
+                                               double to, bool withObstacles, Workspace& workspace,
                                                MotionQuery query) const {
     const double half = tubes[1].half;
-    for (double late = half - delay; late < delay; late += 2.0 * half)
-      if (auto found = notFree(own, late, 1, workspace, query)) return found;
+    for (double late = from + half; late < to; late += 2.0 * half)
+      if (auto found = notFree(own, {late, withObstacles}, 1, workspace, query)) return found;
     return std::nullopt;
+  }
+
+  /// The same for all delays. Moving obstacles are never late: they are early where the own curve
+  /// is late, as all others are, and on time where others are late.
+  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, Workspace& workspace,
+                                               MotionQuery query) const {
+    if (!tubes[1].besideObstacles) return notFree(own, -delay, delay, false, workspace, query);
+    if (auto found = notFree(own, -delay, 0.0, true, workspace, query)) return found;
+    return notFree(own, 0.0, delay, false, workspace, query);
   }
 
   const std::vector<std::string> variables;
@@ -185,10 +244,11 @@ struct ScheduleChecker::Data {
   const Checker pairs;   ///< those that are asked about
   Eigen::VectorXd rest;  ///< a configuration of the group
   std::vector<std::vector<Eigen::Index>> placesOfOthers;
-  double firstMove = std::numeric_limits<double>::infinity();  ///< s, of others on time
-  double lastMove = 0.0;                                       ///< s, likewise
-  double end = 0.0;                                            ///< s
-  std::vector<Tube> tubes;  ///< without a delay, then each for half the delay of that before
+  Moves moves;               ///< of others on time
+  Moves movesWithObstacles;  ///< and of moving obstacles
+  double end = 0.0;          ///< s
+  double largestTime = 0.0;  ///< s, the largest size of an obstacle's first and last time
+  std::vector<Tube> tubes;   ///< without a delay, then each for half the delay of that before
 };
 
 ScheduleChecker::ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
@@ -204,8 +264,6 @@ ScheduleChecker::ScheduleChecker(const Checker& checker, std::vector<std::string
   requireNames(checker, variables, others, still, ignored);
   requireOwn(std::isfinite(delay) && delay >= 0.0, "the delay is " + detail::formatNumber(delay) +
                                                        " s; allowed are finite numbers from 0 on");
-  requireOwn(delay == 0.0 || checker.world().obstacles().empty(),
-             "the world has moving obstacles, which are never late: only a delay of 0 is allowed");
   data_ = std::make_shared<const Data>(checker, std::move(variables), std::move(others), still,
                                        ignored, delay);
 }
@@ -225,8 +283,8 @@ TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, W
     tooFar.undecided = TrajectoryPlace{.time = own.begin()};
     return tooFar;
   }
-  TrajectoryCertificate found =
-      data_->certify(own, own.begin(), own.end(), 0.0, data_->tubes.front(), workspace, query);
+  TrajectoryCertificate found = data_->certify(own, own.begin(), own.end(), {},
+                                               data_->tubes.front().checker, workspace, query);
   if (data_->delay == 0.0 || found.verdict != Verdict::Free) return found;
   if (auto late = data_->notFree(own, workspace, query)) return *std::move(late);
   return found;

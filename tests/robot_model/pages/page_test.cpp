@@ -86,6 +86,54 @@ TEST(PageTest, PathsAreShownInTurn) {
   EXPECT_EQ(pathOf, (std::vector<int>{0, 0, 1, 2}));
 }
 
+/// Along y through the ball's slide, at x = 0 at 2 s.
+std::shared_ptr<const Checker> besideCart() {
+  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0, y, 0)); };
+  return std::make_shared<const Checker>(
+      slide()->withObstacle({.name = "cart",
+                             .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}},
+                             .waypoints = {{0.0, at(-2.0)}, {4.0, at(2.0)}}}));
+}
+
+TEST(PageTest, StatesBesideWhatMovesAreAtTheirTimes) {
+  Page page(besideCart());
+  page.addState("met", std::vector<double>{0.0, 2.0});
+  page.addState("passed", std::vector<double>{0.0, 3.0});
+  const json data = dataOf(page);
+  EXPECT_EQ(data["headline"], "2 states: 1 free, 1 in collision");
+  EXPECT_EQ(data["states"][0]["values"], json({0.0}));
+  EXPECT_EQ(data["states"][0]["clock"], 2.0);
+  EXPECT_EQ(data["states"][0]["contacts"][0]["body_b"], "cart");
+  EXPECT_EQ(data["states"][1]["clock"], 3.0);
+  EXPECT_NEAR(data["states"][1]["clearance"].get<double>(), 0.8, 1e-9);
+  EXPECT_EQ(data["bodies"].back()["name"], "cart");
+  EXPECT_TRUE(data["bodies"].back().contains("motion"));
+  EXPECT_EQ(test::refusal([&] { page.addState("when", kStart); }),
+            "'when' has 1 values; group 'all' has 1 variables, and the time of what moves comes "
+            "after them");
+}
+
+TEST(PageTest, MotionsBesideWhatMovesHaveTheirTimes) {
+  Page page(besideCart());
+  page.addMotion("waits", std::vector<double>{0.0, 0.0}, std::vector<double>{0.0, 1.7});
+  page.addMotion("is met", std::vector<double>{0.0, 1.7}, std::vector<double>{0.0, 2.7});
+  const json data = dataOf(page);
+  EXPECT_EQ(data["headline"], "2 motions: 1 free, 1 in collision");
+  EXPECT_EQ(data["motions"][0]["from"], json({0.0}));
+  EXPECT_EQ(data["motions"][0]["clock"], json({0.0, 1.7}));
+  // It comes within 0.2 m at 1.8 s.
+  EXPECT_NEAR(data["motions"][1]["free_until"].get<double>(), 0.1, 5e-3);
+  const json lower = data["motions"][0]["pieces"]["lower"];
+  EXPECT_NEAR(lower.back().get<double>(), 0.1, 1e-3);
+  EXPECT_GT(lower.front().get<double>(), 1.0);
+  EXPECT_FALSE(dataOf([] {
+                 Page standing(slide());
+                 standing.addMotion("there", kStart, kFree);
+                 return standing;
+               }())["motions"][0]
+                   .contains("clock"));
+}
+
 TEST(PageTest, SaysWhatItIsTold) {
   PageOptions options{.title = "a </script><b> planner",
                       .headline = "the \"best\" path",

@@ -70,6 +70,20 @@ TEST_F(TaskPages, SayWhatIsNotFree) {
   EXPECT_EQ(data["phases"][1]["tone"], "bad");
 }
 
+TEST_F(TaskPages, ShowWhatMovesOnItsClock) {
+  MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
+  for (const double y : {-2.0, 2.0})
+    cart.waypoints.push_back({y, Eigen::Isometry3d(Eigen::Translation3d(0, y, 0))});
+  const auto moving = std::make_shared<const Checker>(alone_->withObstacle(cart));
+  TaskPage page;
+  page.addPhase("aside", moving, curve(1, 1, 0.0, 0.0), {.clock = -1.5});
+  page.addPhase("met", moving, curve(0, 0, 0.0, 1.0), {.clock = -1.5});
+  const nlohmann::json data = dataOf(page.html());
+  EXPECT_EQ(data["headline"], "2 phases: 1 free, 1 in collision");
+  EXPECT_EQ(data["phases"][1]["data"]["motions"][0]["curve"]["clock"], -1.5);
+  EXPECT_TRUE(data["phases"][1]["data"]["bodies"].back().contains("motion"));
+}
+
 TEST_F(TaskPages, RefuseWhatIsNoTask) {
   TaskPage page;
   EXPECT_EQ(test::messageOf([&] { static_cast<void>(page.html()); }), "a page of nothing");
@@ -78,11 +92,6 @@ TEST_F(TaskPages, RefuseWhatIsNoTask) {
   page.addPhase("over", beside_, curve(-1, 1, 0.5, 1.0));
   EXPECT_EQ(test::messageOf([&] { page.addPhase("early", beside_, curve(1, 0, 0.5, 1.5)); }),
             "'early' begins at 1.5 s, and the phase before ends at 2 s");
-  MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
-  cart.waypoints.push_back({0.0, Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))});
-  const auto moving = std::make_shared<const Checker>(beside_->withObstacle(cart));
-  EXPECT_EQ(test::messageOf([&] { page.addPhase("late", moving, curve(1, 0, 0.5, 2.0)); }),
-            "'late': a page of a task shows no moving obstacles, and the world has 'cart'");
   EXPECT_EQ(dataOf(page.html())["phases"].size(), 1U);
   const test::TemporaryFolder folder;
   EXPECT_THROW(page.write(folder.path() / "page.txt"), UsageError);

@@ -50,12 +50,13 @@ TEST(TrajectoryPageErrorsTest, WhatCannotBeShownIsRefusedAndChangesNothing) {
   EXPECT_EQ(dataOf(states)["states"].size(), 1U);
 }
 
-TEST(TrajectoryPageErrorsTest, MovingObstaclesAreBesideTrajectoriesAlone) {
+TEST(TrajectoryPageErrorsTest, BesideMovingObstaclesStatesHaveTheirTime) {
   MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
   cart.waypoints.push_back({0.0, Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0))});
   Page page(std::make_shared<const Checker>(slide()->withObstacle(cart)));
   EXPECT_EQ(refusal([&] { page.addState("s", std::vector<double>{0.0}); }),
-            "a page shows moving obstacles beside trajectories alone, and the world has 'cart'");
+            "'s' has 1 values; group 'all' has 1 variables, and the time of what moves comes after "
+            "them");
   page.addTrajectory("t", rideTo(1.3), {.clock = 2.5});
   const auto data = dataOf(page);
   EXPECT_EQ(data["motions"][0]["curve"]["clock"], 2.5);

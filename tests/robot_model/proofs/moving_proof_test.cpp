@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -195,13 +197,73 @@ TEST_F(MovingProof, IsNotWrittenOfWhatHasNone) {
   const std::vector<std::vector<double>> states{{0, 0, 0}, {0, 0.1, 1}};
   EXPECT_EQ(usageError([&] { writeProof(file, checker, states, certifyPath(checker, states)); }),
             "there is no proof of a path beside 'bar', which moves");
-  const Checker half = checkerWith(0.5, 6.2);
-  EXPECT_EQ(
-      usageError([&] {
-        writeTrajectoryProof(file, half, standing(), certify(half, standing(), 1.0), {}, 1.0);
-      }),
-      "'bar' turns by about half a turn from 1 to 3 s; a proof needs a waypoint between, which "
-      "says which way round");
+  // No time is between the two.
+  const Isometry3d turned(AngleAxisd(3.1, Vector3d::UnitZ()));
+  const Checker sudden =
+      Checker(slidingCube(), "all", std::make_shared<const World>())
+          .withObstacle(
+              {.name = "bar",
+               .parts = {{makeBox({1.0, 0.1, 0.1}), Isometry3d(Translation3d(0.0, 0.0, 9.0))}},
+               .waypoints = {{1.0, Isometry3d::Identity()}, {std::nextafter(1.0, 2.0), turned}}});
+  EXPECT_EQ(usageError([&] {
+              writeTrajectoryProof(file, sudden, standing(), certify(sudden, standing(), 1.0), {},
+                                   1.0);
+            }),
+            "'bar' turns by about half a turn from waypoint 1 to the next, and no time is between "
+            "the two");
+}
+
+TEST_F(MovingProof, HoldsWhereABarTurnsByHalfATurn) {
+  for (const double turn : {6.2, 2.0 * std::numbers::pi}) {
+    const Checker checker = checkerWith(0.5, turn);
+    const auto file = write(checker);
+    for (const CheckedProof& proof : {verifyProof(file), verifyProof(file, checker)}) {
+      EXPECT_EQ(proof.refusal, "");
+      EXPECT_GT(proof.clearanceWorld, 0.5 * 0.35 - 0.01);
+      EXPECT_LE(proof.clearanceWorld, 0.35);
+    }
+    // Half of each turn, on the way that the checker takes.
+    const Json waypoints = jsonOf(file)["model"]["bodies"][1]["waypoints"];
+    ASSERT_EQ(waypoints.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double time = 1.0 + static_cast<double>(i);
+      EXPECT_EQ(waypoints[i]["time"], time);
+      const Isometry3d pose = checker.world().obstacles()[0].poseAt(time);
+      const Json& turned = waypoints[i]["orientation"];
+      const Eigen::Quaterniond own(turned[3], turned[0], turned[1], turned[2]);
+      EXPECT_LT(own.angularDistance(Eigen::Quaterniond(pose.linear())), 1e-14);
+      EXPECT_EQ(waypoints[i]["position"][1], pose.translation().y());
+    }
+  }
+}
+
+/// A bar that is hinged 0.6 m beside the cube, and reaches as far as its edge.
+TEST_F(MovingProof, IsAboutTheWayRoundThatABarTurns) {
+  const auto turning = [](double angle) {
+    const auto at = [](double turned) {
+      return Isometry3d(Translation3d(0.0, 0.6, 0.0) * AngleAxisd(turned, Vector3d::UnitZ()));
+    };
+    return Checker(slidingCube(), "all", std::make_shared<const World>())
+        .withObstacle(
+            {.name = "bar",
+             .parts = {{makeBox({0.6, 0.05, 0.05}), Isometry3d(Translation3d(0.3, 0.0, 0.0))}},
+             .waypoints = {{1.0, at(0.0)}, {5.0, at(angle)}}});
+  };
+  EXPECT_EQ(certify(turning(-3.1), standing(), 1.0).verdict, Verdict::Collision);
+  const Checker checker = turning(3.1);
+  const Json path = jsonOf(write(checker));
+  EXPECT_EQ(verifyProof(folder_.path() / "proof.json", checker).refusal, "");
+  const auto bar = [](Json& json) -> Json& { return json["model"]["bodies"][1]["waypoints"]; };
+  EXPECT_EQ(refusalOfSigned(path, [&](Json&) {}), "");
+  // The other way round, and without saying so.
+  EXPECT_THAT(refusalOfSigned(path,
+                              [&](Json& json) {
+                                Json& turned = bar(json)[1]["orientation"];
+                                turned[2] = -turned[2].get<double>();
+                              }),
+              HasSubstr("bar"));
+  EXPECT_THAT(refusalOfSigned(path, [&](Json& json) { bar(json).erase(1); }),
+              HasSubstr("which way round is not told"));
 }
 
 /// Bars that fly past an arm, turning, with waypoints within the pieces of its curve. Refuted by

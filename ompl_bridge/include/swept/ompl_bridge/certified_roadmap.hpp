@@ -31,8 +31,9 @@ struct RoadmapOptions {
 };
 
 /// A probabilistic roadmap (L. Kavraki et al., 1996) whose motions are all proven, for many queries
-/// in a world that changes. Samples are a low-discrepancy sequence, as CertifiedConnect's. Motions
-/// that a body of the world blocks are kept, and are usable once it is gone: see ProvenGraph.
+/// in a world that changes. Samples are a low-discrepancy sequence, as CertifiedConnect's; where
+/// the checker has constraints, they are moved to where these hold. Motions that a body of the
+/// world blocks are kept, and are usable once it is gone: see ProvenGraph.
 ///
 /// Queries are const: any number of threads may ask one roadmap, each with its own Workspace, while
 /// none updates it. Copies share the states.

@@ -35,7 +35,7 @@ struct SchedulePlanOptions {
   /// s, on the clock: when the last robot rests at its goal.
   double latest = std::numeric_limits<double>::infinity();
   /// s. Each curve, known or planned, may start late by up to so much, one at a time, and still
-  /// nothing touches: PlannedSchedule::delays has the proofs.
+  /// nothing touches: PlannedSchedule::delays has the proofs. Moving obstacles keep their times.
   double delay = 0.0;
   int improvements = 2000;    ///< changes of each robot's way that are tried
   std::uint32_t seed = 1;     ///< of all random numbers
@@ -82,7 +82,9 @@ struct PlannedSchedule {
 /// T. Lozano-Perez, On multiple moving objects, 1987). Those that come later stand at their starts
 /// (M. Cap et al., Prioritized planning algorithms for trajectory coordination of multiple mobile
 /// robots, 2015); where that leaves no way, they are left out, and have to make way. A robot that
-/// finds none goes first in the next attempt. So a schedule that exists may not be found.
+/// finds none goes first in the next attempt. Where as many orders as there are robots have failed,
+/// the first robot of each waits at its start, so that others get out of its way, and longer from
+/// round to round. So a schedule that exists may not be found.
 ///
 /// One robot's way is searched for in configurations and time by two trees (F. Grothe et al.,
 /// ST-RRT*, 2022), whose edges are proven, then made earlier and shorter. It is what a controller
@@ -95,7 +97,7 @@ struct PlannedSchedule {
 /// variables beyond the checker's group or of another task; for another number of values or limits
 /// than variables; for values that are not finite or beyond the limits of positions; for a variable
 /// that has no limits of position and is not cyclic, and for one without limits of velocity and
-/// acceleration; for options that are not allowed; and for a delay beside moving obstacles.
+/// acceleration; and for options that are not allowed.
 PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
                              std::span<const ScheduledCurve> known = {},
                              ConfigurationView still = {}, const SchedulePlanOptions& options = {});

@@ -31,11 +31,12 @@ class ScheduleChecker {
   /// `delay` (s): what is proven holds also if the own curve, or all of the others, start late by
   /// up to so much; or each of the others by itself, where none carries another. More room is
   /// needed for that than the delay takes: ranges of delays are proven in tubes, down to a width of
-  /// 0.02 rad or m.
+  /// 0.02 rad or m. Moving obstacles keep their times: a curve that is late meets them later on
+  /// their way.
   ///
   /// Throws std::invalid_argument as combinedCurve() does, without an own variable, for an own one
-  /// that is of the orientation of a floating joint, for a name that the robot does not have, for a
-  /// delay that is negative or not finite, and one above 0 if the world has moving obstacles.
+  /// that is of the orientation of a floating joint, for a name that the robot does not have, and
+  /// for a delay that is negative or not finite.
   ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
                   std::vector<ScheduledCurve> others = {}, ConfigurationView still = {},
                   const std::vector<std::string>& ignored = {}, double delay = 0.0);
@@ -48,7 +49,7 @@ class ScheduleChecker {
   /// clock's time 0.
   ///
   /// With a delay, the certificate is that of a range of delays that is not Free, on the clock of
-  /// the own curve.
+  /// the own curve. A contact is one of a delay of this range.
   TrajectoryCertificate certify(const PiecewisePolynomial& own, Workspace& workspace,
                                 MotionQuery query = MotionQuery::FirstContact) const;
 

@@ -95,6 +95,13 @@ Json violationJson(const ConstraintViolation& violation, const Checker& checker)
   return {{"t", violation.t}, {"text", describe(violation, checker.options().constraints)}};
 }
 
+/// The group's values of a configuration, which may have a time besides.
+Json valuesJson(const Group& group, const std::vector<double>& q) {
+  Json values = toJson(q);
+  if (q.size() > group.variables.size()) values.erase(values.size() - 1);
+  return values;
+}
+
 Json motionsJson(const Checker& checker, const PageContent& content,
                  const std::vector<PageSpan>& spans, const PageFrames& frames) {
   Json json = Json::array();
@@ -105,10 +112,12 @@ Json motionsJson(const Checker& checker, const PageContent& content,
                   {"path", motion.path},
                   {"verdict", swept::toString(certificate.verdict)},
                   {"free_until", certificate.freeUntil},
-                  {"from", toJson(motion.from)},
-                  {"to", toJson(motion.to)},
+                  {"from", valuesJson(checker.group(), motion.from)},
+                  {"to", valuesJson(checker.group(), motion.to)},
                   {"first_frame", frames.firstFrame[i]},
                   {"steps", spans[i].steps}};
+    if (!checker.world().obstacles().empty())
+      entry["clock"] = {motion.from.back(), motion.to.back()};
     entry["contacts"] = Json::array();
     if (certificate.witness) entry["contacts"].push_back(toJson(*certificate.witness));
     entry["violation"] =
@@ -149,8 +158,9 @@ Json trajectoriesJson(const Checker& checker, const PageContent& content,
   return json;
 }
 
-Json stateJson(const PageContent::State& state, const Checker* checker) {
-  Json json = {{"label", state.label}, {"values", toJson(state.q)}};
+Json stateJson(const PageContent::State& state, const Group& group, const Checker* checker) {
+  Json json = {{"label", state.label}, {"values", valuesJson(group, state.q)}};
+  if (state.q.size() > group.variables.size()) json["clock"] = state.q.back();
   json["verdict"] = nullptr;
   json["contacts"] = Json::array();
   json["violations"] = Json::array();
@@ -294,7 +304,7 @@ Json pageJson(const Robot& robot, const World& world, const Checker* checker,
     json["motions"] = trajectoriesJson(*checker, content, spans, frames);
   else
     for (const PageContent::State& state : content.states)
-      json["states"].push_back(stateJson(state, checker));
+      json["states"].push_back(stateJson(state, group, checker));
   json["constraints"] = checker == nullptr ? Json::array() : pageConstraintsJson(*checker);
   json["clearances"] =
       checker == nullptr ? Json(nullptr) : clearancesOf(*checker, bodies, frames).json();

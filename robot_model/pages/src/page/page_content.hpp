@@ -17,6 +17,7 @@ namespace swept {
 struct PageContent {
   /// How the headline is coloured.
   enum class Tone { Good, Bad, Unsure, Plain };
+  /// Configurations are those that the checker takes: beside moving obstacles with their time.
   struct Motion {
     std::string label;
     std::vector<double> from, to;

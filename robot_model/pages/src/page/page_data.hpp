@@ -24,10 +24,6 @@ struct Page::Data {
     if (kind != Kind::Nothing && kind != wanted)
       throw std::invalid_argument(
           "a page has either states, or motions, or paths, or trajectories");
-    if (wanted != Kind::Trajectories && !checker->world().obstacles().empty())
-      throw std::invalid_argument(
-          "a page shows moving obstacles beside trajectories alone, and the world has '" +
-          checker->world().obstacles().front().name + "'");
     kind = wanted;
   }
   Finding addMotion(const std::string& label, const std::vector<double>& from,

@@ -2,6 +2,7 @@
 #include "page/page_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -75,13 +76,19 @@ PageFrames framesOf(const Robot& robot, const Group& group,
       continue;
     }
     frames.poses.resize(first + static_cast<std::size_t>(span.steps) + 1);
-    frames.clocks.resize(frames.poses.size(), 0.0);
+    const std::size_t own = group.variables.size();
+    const auto shareOf = [&span](int i) {
+      return span.steps == 0 ? 0.0 : static_cast<double>(i) / span.steps;
+    };
+    for (int i = 0; i <= span.steps; ++i)
+      frames.clocks.push_back(
+          span.from.size() > own ? std::lerp(span.from[own], span.to[own], shareOf(i)) : 0.0);
     for (const int link : frames.links) {
       const std::string& name = robot.links()[static_cast<std::size_t>(link)].name;
-      const LinkMotion motion(robot, group.name, name, span.from, span.to, reference);
+      const LinkMotion motion(robot, group.name, name, std::span(span.from).first(own),
+                              std::span(span.to).first(own), reference);
       for (int i = 0; i <= span.steps; ++i)
-        frames.poses[first + static_cast<std::size_t>(i)].push_back(
-            motion.at(span.steps == 0 ? 0.0 : static_cast<double>(i) / span.steps));
+        frames.poses[first + static_cast<std::size_t>(i)].push_back(motion.at(shareOf(i)));
     }
   }
   return frames;

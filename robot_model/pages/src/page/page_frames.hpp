@@ -13,6 +13,8 @@ namespace swept {
 /// A motion that is drawn as `steps` + 1 frames, kFramesPerPiece for each of its parts. With 0
 /// steps it is a state, and `to` is `from`.
 struct PageSpan {
+  /// Configurations as the checker takes them: with the time of moving obstacles, unless it is a
+  /// curve.
   std::vector<double> from, to;
   int steps = 0;
   const PiecewisePolynomial* curve = nullptr;  ///< from one to the other; null: straight
@@ -24,7 +26,7 @@ struct PageFrames {
   std::vector<int> links;                             ///< indices, in the order of each frame
   std::vector<std::vector<Eigen::Isometry3d>> poses;  ///< model_from_link: [frame][link]
   std::vector<int> firstFrame;                        ///< per span
-  std::vector<double> clocks = {};  ///< s, of moving obstacles, per frame; 0 where is no curve
+  std::vector<double> clocks = {};  ///< s, of moving obstacles, per frame; 0 without one
 
   /// model_from_link of a link that is among `links`.
   const Eigen::Isometry3d& pose(std::size_t frame, int link) const;

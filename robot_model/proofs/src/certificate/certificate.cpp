@@ -183,7 +183,7 @@ Certificate certificateOf(const Checker& checker, std::span<const std::vector<do
 
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
                           double clearance, double clock, const std::stop_token& stop) {
-  requireTurnsOfProofs(checker);
+  requireTimesOfTurns(checker);
   const auto pointOf = [&](std::size_t i) {
     const TrajectoryPoint& point = trajectory.points[i];
     return verify::Point{.time = point.time,

@@ -34,7 +34,7 @@ Certificate certificateOf(const Checker& checker, std::span<const std::vector<do
 /// The same for the curve that a controller makes of a trajectory, between its points. `clearance`:
 /// m, of all of it. Variables are those of the group, in its order. `clock`: s, what that of moving
 /// obstacles shows at the trajectory's time 0. Throws UsageError for an obstacle that turns by
-/// about half a turn from one waypoint to the next.
+/// about half a turn between two times without another number between them.
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
                           double clearance, double clock, const std::stop_token& stop = {});
 

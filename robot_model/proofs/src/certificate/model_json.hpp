@@ -39,9 +39,9 @@ Json poseJson(const Eigen::Isometry3d& pose);
 /// Throws UsageError if something of the world moves: `what` has no times, or more than one clock.
 void requireStanding(const Checker& checker, const std::string& what);
 
-/// Throws UsageError if orientations of something that moves are about half a turn apart from one
-/// waypoint to the next: a proof does not tell which way round.
-void requireTurnsOfProofs(const Checker& checker);
+/// Throws UsageError if something that moves turns by about half a turn between two times without
+/// another number between them: a proof does not tell which way round.
+void requireTimesOfTurns(const Checker& checker);
 
 /// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is
 /// not UTF-8.

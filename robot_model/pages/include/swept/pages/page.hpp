@@ -42,9 +42,10 @@ class Page {
 
   ///@{
   /// Adds a state, motion or path. `label`: its name on the page. Configurations have a value for
-  /// each variable of the checker's group, m or rad. A path of a single state stays there. Throws
-  /// std::invalid_argument for another number of values, a non-finite value, another kind than was
-  /// added before, a world with moving obstacles, and a path without a state.
+  /// each variable of the checker's group, m or rad, and beside moving obstacles the time, s, on
+  /// their clock: they are shown where they are by then. A path of a single state stays there.
+  /// Throws std::invalid_argument for another number of values, a non-finite value, another kind
+  /// than was added before, and a path without a state.
   void addState(const std::string& label, std::span<const double> state);
   void addMotion(const std::string& label, std::span<const double> from,
                  std::span<const double> to);
@@ -56,7 +57,7 @@ class Page {
   /// tube. `polyline`: configurations that the curve was made from, shown beside it as straight
   /// motions. Moving obstacles are shown where they are at TrajectoryQuery::clock plus the time.
   ///
-  /// Throws std::invalid_argument as addPath() but for moving obstacles, as
+  /// Throws std::invalid_argument as addPath(), where configurations have no time, as
   /// Checker::certifyTrajectory(), and for an orientation with a quaternion of zero.
   void addTrajectory(const std::string& label, const PiecewisePolynomial& curve,
                      const TrajectoryQuery& query = {},

@@ -29,9 +29,9 @@ class TaskPage {
   TaskPage& operator=(TaskPage&&) noexcept;
 
   /// Adds a phase, whose curve begins where the one before ended. `changes`: what has changed since
-  /// then, for people: `cup attached to hand`. Throws std::invalid_argument as
-  /// Page::addTrajectory() does, for null, for moving obstacles, and for a curve that begins
-  /// earlier than the one before ends.
+  /// then, for people: `cup attached to hand`. Moving obstacles are shown where they are at
+  /// TrajectoryQuery::clock plus the time. Throws std::invalid_argument as Page::addTrajectory()
+  /// does, for null, and for a curve that begins earlier than the one before ends.
   void addPhase(const std::string& label, std::shared_ptr<const Checker> checker,
                 const PiecewisePolynomial& curve, const TrajectoryQuery& query = {},
                 const std::vector<std::string>& changes = {});

@@ -56,14 +56,15 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
 /// The same for a trajectory: for the curve that controllerCurve() makes of it, from its first
 /// point to its last. A start that is no point of it is not part of the file. `certificate`: the
 /// result of certifyTrajectory() for that curve, with clearances. Moving obstacles are in the file
-/// with their waypoints, and the planes hold beside them. `clock`: s, TrajectoryQuery::clock of the
+/// with their waypoints, and one more in the middle of a turn by about half a turn, which tells
+/// which way round. The planes hold beside them. `clock`: s, TrajectoryQuery::clock of the
 /// certificate.
 ///
 /// Throws UsageError as writeProof() does but for moving obstacles, for a curve that leaves the
-/// limits of a position, and for an obstacle that turns by about half a turn from one waypoint to
-/// the next; std::invalid_argument for a trajectory that controllerCurve() refuses, variables other
-/// than the group's in its order, a certificate that ends at another time, or one without
-/// clearances; SearchStopped for `stop`.
+/// limits of a position, and for an obstacle that turns by about half a turn between two times
+/// without another number between them; std::invalid_argument for a trajectory that
+/// controllerCurve() refuses, variables other than the group's in its order, a certificate that
+/// ends at another time, or one without clearances; SearchStopped for `stop`.
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
