@@ -52,7 +52,9 @@ class NodePlacement {
     const Eigen::Matrix4d matrix = toEigen(node.mTransformation);
     if (matrix.isIdentity(0.0)) return *this;
     const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
-    const double offset = matrix.topRightCorner<3, 1>().stableNorm();
+    // Of the true offset, too.
+    const double offset =
+        matrix.topRightCorner<3, 1>().stableNorm() * (1.0 + 2.0 * kNumberRoundings * kSingle);
     // The entries are made of a unit quaternion and a scale in some 30 roundings of the length of
     // their column, or are those of the file. The offset is that of the file.
     const double linearError =
