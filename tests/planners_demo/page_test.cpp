@@ -45,8 +45,9 @@ class PlannedPage : public testing::Test {
   static void SetUpTestSuite() {
     if (!programHasPages()) return;
     const TemporaryFolder folder;
-    sharedRun = runSwept({"plan", kRook, "--group", "arm", "--problems", "models/problems.json",
-                          "--set", "shelf", "--index", "1", "--html", folder.path("page.html")});
+    sharedRun =
+        runSwept({"plan", kRook, "--group", "arm", "--problems", "models/problems.json", "--set",
+                  "shelf", "--index", "1", "--seed", "2", "--html", folder.path("page.html")});
     sharedLine = "page written to " + folder.path("page.html") + "\n";
     sharedHtml = folder.read("page.html");
     sharedData = pageData(sharedHtml);

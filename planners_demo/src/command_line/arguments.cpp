@@ -138,8 +138,10 @@ std::string messageOf(const CLI::ParseError& error, const CLI::App& program, int
 /// leave out the scene that something is to be proven in. Throws CLI::ValidationError.
 void refuseEmptyValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
-    // Of several positionals, states, the message says what else each may be.
-    if ((option->nonpositional() || option->get_items_expected_max() == 1) &&
+    // Of several positionals, states, the message says what else each may be. A line that is to be
+    // completed may be empty.
+    if ((option->nonpositional() ||
+         (option->get_items_expected_max() == 1 && option->get_name() != "line")) &&
         std::ranges::count(option->results(), "") > 0)
       throw CLI::ValidationError(option->get_name(), "must not be empty");
   for (const CLI::App* chosen : app.get_subcommands()) refuseEmptyValues(*chosen);
