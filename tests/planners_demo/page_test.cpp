@@ -177,7 +177,7 @@ TEST_F(PlannedPage, FactsAreTheRuns) {
   std::map<std::string, std::string> facts;
   for (const json& fact : sharedData["facts"]) facts[fact[0]] = fact[1];
   EXPECT_EQ(facts["planner"], "CertifiedConnect");
-  EXPECT_EQ(facts["seed"], "1");
+  EXPECT_EQ(facts["seed"], "2");
   EXPECT_EQ(facts["margin"], "0 m");
   EXPECT_EQ(facts["tolerance"], "0.001 m");
   EXPECT_EQ(facts["swept"], SWEPT_VERSION);
