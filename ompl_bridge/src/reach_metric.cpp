@@ -28,7 +28,7 @@ ReachMetric::ReachMetric(const ob::SpaceInformation& si) : space_(si.getStateSpa
   if (addParts(si)) normalize();
 }
 
-/// Without the weights of joints yet.
+/// Factors are as jointReach() has them.
 bool ReachMetric::addParts(const ob::SpaceInformation& si) {
   const std::shared_ptr<const Checker> checker = checkerOf(si);
   if (checker == nullptr) return false;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crossing_robot.hpp"
@@ -104,13 +105,17 @@ TEST(ScheduleChecker, NamesLikePatternsLeaveOutNoOtherPair) {
   EXPECT_EQ(beside.certify(pass(0.5), workspace).verdict, Verdict::Free);
 }
 
+/// Beside a cube that moves along y: at these times (s) it is there (m).
+Checker besideCart(const std::vector<std::pair<double, double>>& places) {
+  MovingObstacle cart{.name = "cart",
+                      .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}}};
+  for (const auto& [time, y] : places)
+    cart.waypoints.push_back({time, Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0))});
+  return checkerOf(crossing()).withObstacle(cart);
+}
+
 TEST(ScheduleChecker, ObstaclesAreOnTheSameClock) {
-  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
-  const Checker checker =
-      checkerOf(crossing())
-          .withObstacle({.name = "cart",
-                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
-                         .waypoints = {{0.0, at(-1.0)}, {2.0, at(1.0)}, {7.0, at(1.0)}}});
+  const Checker checker = besideCart({{0.0, -1.0}, {2.0, 1.0}, {7.0, 1.0}});
   const std::vector<double> still{0.0, 3.0, 3.0};
   const ScheduleChecker beside(checker, {"east"}, {}, still);
   EXPECT_EQ(beside.end(), 7.0);
@@ -137,12 +142,7 @@ TEST(ScheduleChecker, DelaysAreProvenUpToTheTruth) {
 
 TEST(ScheduleChecker, ObstaclesKeepTheirTimesWhileTheCurveIsLate) {
   // It passes the origin at 4 s. They meet if they pass less than 0.4 s apart.
-  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
-  const Checker checker =
-      checkerOf(crossing())
-          .withObstacle({.name = "cart",
-                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
-                         .waypoints = {{3.0, at(-1.0)}, {5.0, at(1.0)}}});
+  const Checker checker = besideCart({{3.0, -1.0}, {5.0, 1.0}});
   const std::vector<double> still{0.0, 3.0, 3.0};
   for (const double delay : {0.1, 0.5, 1.0}) {
     const ScheduleChecker beside(checker, {"east"}, {}, still, {}, delay);
@@ -168,13 +168,8 @@ TEST(ScheduleChecker, ObstaclesKeepTheirTimesWhileTheCurveIsLate) {
 }
 
 TEST(ScheduleChecker, ALargerMarginOfAPairIsKeptWithADelay) {
-  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
-  const Checker checker =
-      checkerOf(crossing())
-          .withObstacle({.name = "cart",
-                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
-                         .waypoints = {{3.0, at(-1.0)}, {5.0, at(1.0)}}})
-          .withRules(CollisionRules().margin("east*", "cart", 0.1));
+  const Checker checker = besideCart({{3.0, -1.0}, {5.0, 1.0}})
+                              .withRules(CollisionRules().margin("east*", "cart", 0.1));
   const ScheduleChecker beside(checker, {"east"}, {}, std::vector<double>{0.0, 3.0, 3.0}, {}, 0.5);
   Workspace workspace(beside.checker());
   // Without a margin 0.4 s are enough. With one, the corners pass 0.1 m apart where the cubes are

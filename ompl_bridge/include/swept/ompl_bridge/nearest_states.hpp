@@ -48,8 +48,8 @@ class JointTree {
   /// Forgets the states.
   void clear();
   /// Adds a state. Returns false, and changes nothing, for a state that is not from
-  /// makeStateSpace's space of a group of limited joints, or from another space than the states
-  /// before.
+  /// makeStateSpace's space of a group of limited joints, or of as many as there are factors, or
+  /// from another space than the states before.
   bool add(const ompl::base::State* state, std::uint32_t index);
   /// Removes a state. Its values must be those that were added.
   void remove(const ompl::base::State* state, std::uint32_t index);
