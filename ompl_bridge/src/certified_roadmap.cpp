@@ -37,15 +37,15 @@ const std::shared_ptr<const Checker>& required(const std::shared_ptr<const Check
   return checker;
 }
 
-struct Node {
-  ob::State* state = nullptr;
-  std::uint32_t index = 0;
-};
-
 }  // namespace
 
 /// The states in the space of the planner, and which are near.
 struct CertifiedRoadmap::Places {
+  struct Node {
+    ob::State* state = nullptr;
+    std::uint32_t index = 0;
+  };
+
   Places(const Checker& checker, const StateSpaceOptions& options)
       : space(makeStateSpace(checker.robot(), checker.group(), options)),
         conversion(checker.robot(), checker.group()) {
@@ -87,7 +87,7 @@ class CertifiedRoadmap::Joiner {
   Joiner(const CertifiedRoadmap& roadmap, ConfigurationView q, bool isGoal, Workspace& workspace)
       : roadmap_(roadmap), q_(q), isGoal_(isGoal), workspace_(workspace) {
     const Places& places = *roadmap.places_;
-    Node node{places.space->allocState()};
+    Places::Node node{places.space->allocState()};
     places.conversion.toState(q, node.state);
     places.near.nearestK(&node, kMostJoins, near_);
     places.space->freeState(node.state);
@@ -116,7 +116,7 @@ class CertifiedRoadmap::Joiner {
   ConfigurationView q_;
   bool isGoal_;
   Workspace& workspace_;
-  std::vector<Node*> near_;
+  std::vector<Places::Node*> near_;
   std::size_t next_ = 0;
   std::vector<Join> joins_;
 };
@@ -169,11 +169,11 @@ CertifiedRoadmap::CertifiedRoadmap(std::shared_ptr<const Checker> checker,
                                 std::to_string(kMostSamples * options.states) +
                                 " states is proven free");
   std::vector<ProvenGraph::Motion> motions;
-  std::vector<Node*> near;
+  std::vector<Places::Node*> near;
   for (const auto& node : places->nodes) {
     if (options.stop.stop_requested()) break;
     places->near.nearestK(node.get(), options.neighbours + 1, near);
-    for (const Node* other : near)
+    for (const Places::Node* other : near)
       if (other != node.get())
         motions.push_back(
             {std::min(node->index, other->index), std::max(node->index, other->index)});

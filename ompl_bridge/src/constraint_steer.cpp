@@ -15,7 +15,7 @@ namespace ob = ompl::base;
 
 /// Of the tolerances: where projected states are. The rest is for the motions between them, which
 /// leave the manifold in the middle by the square of their length.
-constexpr double kShare = 0.5;
+constexpr double kProjectionShare = 0.5;
 /// Of the tolerances: what a motion may use at its samples. The proof needs the rest.
 constexpr double kMostUsed = 0.98;
 /// How often a step is halved until the straight motion keeps the constraints.
@@ -23,7 +23,7 @@ constexpr int kHalvings = 5;
 /// A step comes nearer by this share of its length, at least.
 constexpr double kLeastProgress = 0.1;
 /// A projection moves a state no farther than so many steps.
-constexpr double kFarthest = 2.0;
+constexpr double kMostDetour = 2.0;
 
 ConstraintProjection projectionIn(const ob::StateSpace& space, const Checker& checker) {
   const SpaceBounds bounds = boundsOf(space, checker);
@@ -46,7 +46,7 @@ ConstraintSteer::~ConstraintSteer() {
 
 bool ConstraintSteer::project(ob::State* state) {
   conversion_.toConfiguration(state, q_);
-  if (!projection_.project(q_, {.share = kShare}, workspace_)) return false;
+  if (!projection_.project(q_, {.share = kProjectionShare}, workspace_)) return false;
   conversion_.toState(q_, state);
   return true;
 }
@@ -69,7 +69,7 @@ bool ConstraintSteer::step(const ob::State* from, const ob::State* to, double ra
     if (length < distance) {
       space_->interpolate(from, to, length / distance, reached);
       if (!project(reached)) continue;
-      if (space_->distance(from, reached) > kFarthest * length) continue;
+      if (space_->distance(from, reached) > kMostDetour * length) continue;
       if (space_->distance(reached, to) > distance - kLeastProgress * length) return false;
     } else {
       space_->copyState(reached, to);

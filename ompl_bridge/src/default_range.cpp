@@ -17,14 +17,15 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr double kTurn = 0.4;   // rad
-constexpr double kShare = 0.2;  // of the way of a joint that slides, or of a space's extent
-constexpr double kSlide = 4.0;  // m, of a joint without limits
+constexpr double kTurnStep = 0.4;    // rad
+constexpr double kShareOfWay = 0.2;  // of the way of a joint that slides, or of a space's extent
+constexpr double kSlide = 4.0;       // m, of a joint without limits
 
 double stepOf(const Robot& robot, const Variable& variable) {
   const double way = variable.upper - variable.lower;
-  if (unitOf(robot, variable) == "rad") return std::isfinite(way) ? std::min(kTurn, way) : kTurn;
-  return std::isfinite(way) ? kShare * way : kSlide;
+  if (unitOf(robot, variable) == "rad")
+    return std::isfinite(way) ? std::min(kTurnStep, way) : kTurnStep;
+  return std::isfinite(way) ? kShareOfWay * way : kSlide;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ double stepOf(const Robot& robot, const Variable& variable) {
 double defaultRange(const ob::SpaceInformation& si) {
   const ob::StateSpacePtr& space = si.getStateSpace();
   const std::shared_ptr<const Checker> checker = checkerOf(si);
-  if (checker == nullptr) return kShare * space->getMaximumExtent();
+  if (checker == nullptr) return kShareOfWay * space->getMaximumExtent();
   const Robot& robot = checker->robot();
   std::vector<double> from, to;
   for (const int index : checker->group().variables) {
@@ -42,7 +43,7 @@ double defaultRange(const ob::SpaceInformation& si) {
       const bool isReal = variable.name.ends_with("rot_w");
       const bool isFirst = variable.name.ends_with("rot_x");
       from.push_back(isReal ? 1.0 : 0.0);
-      to.push_back(isReal ? std::cos(0.5 * kTurn) : isFirst ? std::sin(0.5 * kTurn) : 0.0);
+      to.push_back(isReal ? std::cos(0.5 * kTurnStep) : isFirst ? std::sin(0.5 * kTurnStep) : 0.0);
       continue;
     }
     const double begin = std::isfinite(variable.lower) ? variable.lower : 0.0;

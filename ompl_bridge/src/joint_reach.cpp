@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kConfigurations = 8;
 /// rad or m, from zero, of a value without limits.
-constexpr double kFarthest = std::numbers::pi;
+constexpr double kFarthestTurn = std::numbers::pi;
 
 /// A ball around all that a link has and carries, in the link's frame.
 struct LinkBall {
@@ -121,8 +121,8 @@ std::vector<double> spreadValues(const Robot& robot, int configuration) {
   for (const Variable& variable : robot.variables()) {
     const double place = (configuration + 1) * std::numbers::phi +
                          static_cast<double>(values.size()) * std::numbers::sqrt2;
-    const double low = std::isfinite(variable.lower) ? variable.lower : -kFarthest;
-    const double high = std::isfinite(variable.upper) ? variable.upper : kFarthest;
+    const double low = std::isfinite(variable.lower) ? variable.lower : -kFarthestTurn;
+    const double high = std::isfinite(variable.upper) ? variable.upper : kFarthestTurn;
     values.push_back(low + (place - std::floor(place)) * (high - low));
   }
   return values;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLeaf = 256;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMost = std::numeric_limits<float>::max();
-constexpr double kFarthest = 1e18;  // its square is a float
+constexpr double kFarthestValue = 1e18;  // its square is a float
 
 const double* valuesOf(const ompl::base::State* state) {
   return state->as<JointSpace::StateType>()->values;
@@ -168,8 +168,8 @@ JointTree::Cells::Point JointTree::Cells::weighted(const double* values) const {
   Point point(dimension_, boost::container::default_init);
   for (std::size_t d = 0; d < dimension_; ++d) {
     double value = scales_[d] * values[d];
-    if (!(std::abs(value) <= kFarthest))
-      value = std::isfinite(value) && value < 0.0 ? -kFarthest : kFarthest;
+    if (!(std::abs(value) <= kFarthestValue))
+      value = std::isfinite(value) && value < 0.0 ? -kFarthestValue : kFarthestValue;
     point[d] = static_cast<float>(value);
   }
   return point;

@@ -16,7 +16,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// The first numbers of neighbouring seeds are neighbours.
 constexpr unsigned long long kWarmUp = 16;
@@ -35,10 +35,10 @@ int nextPrime(int number) {
 void rotate(const double* u, ob::SO3StateSpace::StateType& state) {
   const double inner = std::sqrt(1.0 - u[0]);
   const double outer = std::sqrt(u[0]);
-  state.x = inner * std::sin(kTurn * u[1]);
-  state.y = inner * std::cos(kTurn * u[1]);
-  state.z = outer * std::sin(kTurn * u[2]);
-  state.w = outer * std::cos(kTurn * u[2]);
+  state.x = inner * std::sin(kFullTurn * u[1]);
+  state.y = inner * std::cos(kFullTurn * u[1]);
+  state.z = outer * std::sin(kFullTurn * u[2]);
+  state.w = outer * std::cos(kFullTurn * u[2]);
 }
 
 void placeVector(const std::vector<double>& low, const std::vector<double>& width,
@@ -63,12 +63,13 @@ void placeTurn(const ob::State* from, const ob::State* to, double margin, double
                ob::State* state) {
   using Turn = ob::SO2StateSpace::StateType;
   double& value = state->as<Turn>()->value;
-  value = kTurn * unit - std::numbers::pi;
+  value = kFullTurn * unit - std::numbers::pi;
   if (from == nullptr) return;
-  const double half = 0.5 * std::remainder(to->as<Turn>()->value - from->as<Turn>()->value, kTurn);
+  const double half =
+      0.5 * std::remainder(to->as<Turn>()->value - from->as<Turn>()->value, kFullTurn);
   const double middle = from->as<Turn>()->value + half;
   const double widest = std::min(std::abs(half) + margin, std::numbers::pi);
-  value = std::remainder(middle + widest * (2.0 * unit - 1.0), kTurn);
+  value = std::remainder(middle + widest * (2.0 * unit - 1.0), kFullTurn);
 }
 
 }  // namespace

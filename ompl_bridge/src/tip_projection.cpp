@@ -17,7 +17,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Each set-up of a space asks for the size of the cells, whether or not a planner needs cells.
 /// OMPL takes a twentieth of the extents of 100 states, with a tenth added, which is most of the
@@ -32,7 +32,7 @@ class GroupProjection : public ob::ProjectionEvaluator {
     constexpr double kCells = 15.0;
     const ob::StateSamplerPtr sampler = space_->allocStateSampler();
     ob::State* const state = space_->allocState();
-    Eigen::VectorXd low = Eigen::VectorXd::Constant(getDimension(), kInfinity);
+    Eigen::VectorXd low = Eigen::VectorXd::Constant(getDimension(), kUnbounded);
     Eigen::VectorXd high = -low, projection = low;
     for (int i = 0; i < kStates; ++i) {
       sampler->sampleUniform(state);

@@ -11,15 +11,13 @@ namespace {
 
 using Pair = BroadphaseScratch::Pair;
 
-constexpr std::size_t kLanes = BoxBlock::kLanes;
-
 /// m^2. Squared distance of the box to each lane. Where infinite coordinates give NaN, the gap
 /// counts as zero.
-using LaneDistances = std::array<float, kLanes>;
+using LaneDistances = std::array<float, BoxBlock::kLanes>;
 LaneDistances squaredDistances(const FloatBox& box, const BoxBlock& block) {
   LaneDistances squared{};
   for (int k = 0; k < 3; ++k) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < BoxBlock::kLanes; ++lane) {
       const float above = block.lower[k][lane] - box.upper[k];
       const float below = box.lower[k] - block.upper[k][lane];
       const float least = above > 0.0F ? above : 0.0F;
@@ -63,6 +61,8 @@ class PairSearch {
   std::size_t looked() const { return looked_; }
 
  private:
+  static constexpr std::size_t kLanes = BoxBlock::kLanes;
+
   struct Node {
     const PlacedForest* side;
     const BoxTree* tree;

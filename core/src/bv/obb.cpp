@@ -22,7 +22,7 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Obb everything() {
+Obb unboundedBox() {
   return {Matrix3d::Identity(), Vector3d::Constant(NAN), Vector3d::Constant(NAN)};
 }
 
@@ -116,11 +116,11 @@ Obb Obb::fit(std::span<const Vector3d> points) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, points] { return fit(points); });
   }
-  if (points.empty()) return everything();
+  if (points.empty()) return unboundedBox();
   std::array<Vector3d, kSample> buffer;
   Matrix3d axes = chooseAxes(sampleOf(points, buffer));
   Extents extents = detail::extentsAlong(points, axes);
-  if (!extents.finite) return everything();
+  if (!extents.finite) return unboundedBox();
   detail::sortLongestFirst(axes, extents);
   return boxOver(axes, extents, points.front());
 }
@@ -129,7 +129,7 @@ Obb Obb::merge(const Obb& a, const Obb& b) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return merge(a, b); });
   }
-  if (!(a.halfExtents + b.halfExtents).allFinite()) return everything();
+  if (!(a.halfExtents + b.halfExtents).allFinite()) return unboundedBox();
   const Vector3d& origin = a.middle;
   Matrix3d axes;
   Extents extents;
@@ -146,7 +146,7 @@ Obb Obb::merge(const Obb& a, const Obb& b) {
   consider(a.axes);
   consider(b.axes);
   consider(detail::principalAxes(detail::scatterOf(cornersOf(a, b))));
-  if (!(least < std::numeric_limits<double>::infinity())) return everything();
+  if (!(least < std::numeric_limits<double>::infinity())) return unboundedBox();
   detail::sortLongestFirst(axes, extents);
   Obb merged = boxOver(axes, extents, origin);
   // The boxes' own middles carry the rounding of their coordinates.

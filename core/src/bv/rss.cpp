@@ -25,7 +25,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Rss everything() {
+Rss unboundedRectangle() {
   return {Matrix3d::Identity(), Vector3d::Constant(NAN), Vector2d::Constant(NAN), NAN};
 }
 
@@ -79,7 +79,7 @@ struct Rectangle {
   }
 };
 
-struct Interval {
+struct Extent {
   double lower = std::numeric_limits<double>::infinity();
   double upper = -std::numeric_limits<double>::infinity();
 
@@ -172,7 +172,7 @@ Rss Rss::fitWithin(std::span<const Vector3d> points, const Obb& box) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, points] { return fitWithin(points, box); });
   }
-  if (points.empty() || !box.halfExtents.allFinite()) return everything();
+  if (points.empty() || !box.halfExtents.allFinite()) return unboundedRectangle();
   const Matrix3d& axes = box.axes;
   const auto ballAt = [&](std::size_t i) {
     const Vector3d d = points[i] - box.middle;
@@ -189,15 +189,15 @@ Rss Rss::merge(const Rss& a, const Rss& b) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return merge(a, b); });
   }
-  if (!(a.halfLengths + b.halfLengths).allFinite()) return everything();
+  if (!(a.halfLengths + b.halfLengths).allFinite()) return unboundedRectangle();
   const std::array<Vector3d, 8> corners = cornersOf(a, b);
   const Vector3d origin = corners.front();
-  Rss best = everything();
+  Rss best = unboundedRectangle();
   const auto consider = [&](const Matrix3d& frame) {
     const auto ballAt = [&](std::size_t i) {
       return Ball{frame.transpose() * (corners[i] - origin), i < 4 ? a.radius : b.radius};
     };
-    Interval across;
+    Extent across;
     double reach = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Ball ball = ballAt(i);

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kLeastSine = 0.02;
 constexpr double kMostSkew = 1e-4;
 /// Of a direction's length: the squares of components that matter beside it do not underflow.
-constexpr double kLeastSquare = 1e-200;
+constexpr double kLeastSquaredLength = 1e-200;
 
 /// Columns.
 Matrix3d axesOf(const OrientedBox& box) {
@@ -137,7 +137,7 @@ BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox
               const Vector3d& along) {
   BoxGap gap;
   const double squared = along.squaredNorm();
-  if (!(squared > kLeastSquare)) return gap;
+  if (!(squared > kLeastSquaredLength)) return gap;
   const Vector3d center = frames.linear * other.center + frames.translation - box.center;
   const double size = center.cwiseAbs().sum() + sumOf(box.half) + sumOf(other.half);
   const double inverse = 1.0 / std::sqrt(squared);

@@ -17,19 +17,15 @@
 
 namespace swept {
 
-namespace {
-
-/// An interval, and the range [begin, end) of the workspace's pairs that are open in it.
-struct Interval {
-  double from;
-  double to;
-  std::size_t begin;
-  std::size_t end;
-};
-
-}  // namespace
-
 struct ContinuousWorkspace::Data {
+  /// An interval, and the range [begin, end) of the workspace's pairs that are open in it.
+  struct Interval {
+    double from;
+    double to;
+    std::size_t begin;
+    std::size_t end;
+  };
+
   std::vector<detail::OpenPair> open;
   std::vector<Interval> waiting;  ///< the earliest last
 };
@@ -47,6 +43,7 @@ using detail::OpenPair;
 using detail::Side;
 using detail::SliceDescent;
 using Eigen::Isometry3d;
+using Interval = ContinuousWorkspace::Data::Interval;
 
 /// Share of the tolerance that distances may use.
 constexpr double kQueryShare = 1.0 / 16.0;

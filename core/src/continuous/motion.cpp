@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Relative: fewer than twenty products and sums of lengths, each within a few ulps.
-constexpr double kUp = 1.0 + 1e-14;
+constexpr double kBoundUp = 1.0 + 1e-14;
 
 }  // namespace
 
@@ -24,14 +24,15 @@ double MotionBound::along(const Vector3d& n) const {
   }
   const double directed =
       std::abs(n.dot(linear)) + detail::times(n.cross(spin).norm(), radius) + curvature;
-  return std::min(travel, directed * kUp);
+  return std::min(travel, directed * kBoundUp);
 }
 
 double MotionBound::most() const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return most(); });
   }
-  return std::min(travel, (linear.norm() + detail::times(spin.norm(), radius) + curvature) * kUp);
+  return std::min(travel,
+                  (linear.norm() + detail::times(spin.norm(), radius) + curvature) * kBoundUp);
 }
 
 MotionBound Motion::bound(const BoundingSphere& ball, double from, double to) const {
@@ -49,8 +50,8 @@ MotionBound Motion::bound(const BoundingSphere& ball, double from, double to) co
   // turn have the same velocity.
   const double reach = std::isfinite(ball.radius) ? ball.radius : 0.0;
   const double rounded = half * rounding(ball.center.norm() + reach);
-  bound.curvature = (0.5 * half * half * moving.acceleration + rounded) * kUp;
-  bound.travel = half * moving.speed * kUp;
+  bound.curvature = (0.5 * half * half * moving.acceleration + rounded) * kBoundUp;
+  bound.travel = half * moving.speed * kBoundUp;
   return bound;
 }
 

@@ -8,7 +8,7 @@ namespace swept::detail {
 namespace {
 
 /// Relative: the sums and products of lengths below are of fewer than fifty terms, none negative.
-constexpr double kUp = 1.0 + 1e-13;
+constexpr double kBallUp = 1.0 + 1e-13;
 
 }  // namespace
 
@@ -24,8 +24,8 @@ MovingBall::MovingBall(const Motion& motion, const BoundingSphere& ball, double 
   center = pose * ball.center;
   const double arm = (center - reference).norm() + radius;
   const double turning = rates.angularAcceleration + rates.angularSpeed * rates.angularSpeed;
-  speed = (rates.speed + times(rates.angularSpeed, arm)) * kUp;
-  acceleration = (rates.acceleration + times(turning, arm)) * kUp;
+  speed = (rates.speed + times(rates.angularSpeed, arm)) * kBallUp;
+  acceleration = (rates.acceleration + times(turning, arm)) * kBallUp;
 }
 
 }  // namespace swept::detail

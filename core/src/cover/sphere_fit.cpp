@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostPlaces = 900;
-constexpr int kMostPieces = 8000;
+constexpr int kMostSpherePieces = 8000;
 /// Relative to the size of the body: a smaller gain in reach is none.
 constexpr double kLeastGain = 1e-5;
 
@@ -65,7 +65,7 @@ void SphereFit::divide(int count, double largest) {
   std::ranges::make_heap(pieces_, less);
   std::vector<BodyPiece> halves;
   std::vector<BodyPiece> whole;
-  while (!pieces_.empty() && static_cast<int>(pieces_.size() + whole.size()) < kMostPieces) {
+  while (!pieces_.empty() && static_cast<int>(pieces_.size() + whole.size()) < kMostSpherePieces) {
     const bool enough = static_cast<int>(pieces_.size() + whole.size()) >= count;
     if (enough && sizeOf(pieces_.front()) <= largest) break;
     throwIfStopped(stop_);

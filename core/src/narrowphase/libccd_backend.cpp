@@ -19,7 +19,8 @@ namespace swept::detail {
 namespace {
 
 /// The shapes that libccd can handle in one call.
-using Piece = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle>;
+using CcdSolid =
+    std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle>;
 
 double along(double direction, double size) {
   return direction < 0.0 ? -size : size;
@@ -81,9 +82,9 @@ Eigen::Vector3d meanOf(const Points& points) {
 }
 
 /// Of a mesh: its hull. Planes, half-spaces and clouds never come here.
-Piece pieceOf(const Shape& shape) {
+CcdSolid pieceOf(const Shape& shape) {
   return std::visit(
-      [](const auto& solid) -> Piece {
+      [](const auto& solid) -> CcdSolid {
         using Solid = std::decay_t<decltype(solid)>;
         if constexpr (std::is_same_v<Solid, TriangleMesh>) {
           return solid.hull();
@@ -99,7 +100,7 @@ Piece pieceOf(const Shape& shape) {
 
 /// A posed piece.
 struct Body {
-  Piece piece;
+  CcdSolid piece;
   Eigen::Isometry3d pose;  ///< in the common frame
   Eigen::Vector3d center;  ///< m, common frame
   double radius;           ///< m, of a ball around `center` that contains the piece
@@ -165,7 +166,7 @@ enum class Met : std::uint8_t { No, Yes, Unknown };
 ///
 /// ccdMPRIntersect has no limit of its own, and loops for ever on some flat shapes. A NaN support
 /// point fails each of its comparisons, which ends it.
-Met meet(const Body& a, const Body& b, int& evaluations) {
+Met ccdMeet(const Body& a, const Body& b, int& evaluations) {
   constexpr int kMostSupports = 2 * 10'000;  // of both; 200 of either are many
   constexpr unsigned long kMostIterations = 200;
   constexpr double kPortalTolerance = 1e-3 * tolerance::kLibccdDistance;
@@ -187,7 +188,7 @@ Met meet(const Body& a, const Body& b, int& evaluations) {
 }
 
 /// The state of a query over all pairs of pieces.
-struct Search {
+struct CcdSearch {
   double upper;  ///< m, smallest known r for which the pieces meet
   double enough;
   double contact;
@@ -199,7 +200,7 @@ struct Search {
   void examine(Body& a, const Body& b) {
     if ((a.center - b.center).norm() - a.radius - b.radius >= upper) return;
     a.growth = 0.0;
-    const Met met = meet(a, b, evaluations);
+    const Met met = ccdMeet(a, b, evaluations);
     if (met == Met::Yes) {
       upper = 0.0;
     } else if (met == Met::Unknown) {
@@ -216,14 +217,14 @@ struct Search {
     double together = std::min(upper, (a.center - b.center).norm());
     if (together == upper) {
       a.growth = std::max(0.0, upper - tolerance::kLibccdDistance);
-      if (meet(a, b, evaluations) != Met::Yes) return;
+      if (ccdMeet(a, b, evaluations) != Met::Yes) return;
       together = a.growth;
     }
     while (together - apart > tolerance::kLibccdDistance && together > contact && apart <= enough) {
       a.growth = 0.5 * (apart + together);
       // Far out, doubles are farther apart than the accuracy.
       if (!(a.growth > apart && a.growth < together)) break;
-      const Met met = meet(a, b, evaluations);
+      const Met met = ccdMeet(a, b, evaluations);
       if (met == Met::Unknown) break;
       (met == Met::Yes ? together : apart) = a.growth;
     }
@@ -251,7 +252,7 @@ Triangle triangleOf(const TriangleMesh& mesh, int index) {
 
 /// Every triangle of `mesh` near enough to matter against `body`, both in the mesh's frame, the
 /// nearest boxes first.
-void examineMesh(const TriangleMesh& mesh, int index, Body& body, Search& search) {
+void examineMesh(const TriangleMesh& mesh, int index, Body& body, CcdSearch& search) {
   const WideNode& node = mesh.bvh().nodes()[index];
   std::array<std::pair<double, int>, WideNode::kLanes> order;
   for (int lane = 0; lane < node.count; ++lane) {
@@ -273,13 +274,13 @@ void examineMesh(const TriangleMesh& mesh, int index, Body& body, Search& search
   }
 }
 
-void examineMesh(const TriangleMesh& mesh, Body& body, Search& search) {
+void examineMesh(const TriangleMesh& mesh, Body& body, CcdSearch& search) {
   examineMesh(mesh, 0, body, search);
 }
 
 /// `a` is a mesh.
 void examineMeshPair(const TriangleMesh& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
-                     Search& search) {
+                     CcdSearch& search) {
   const auto* meshB = std::get_if<TriangleMesh>(&b);
   if (meshB == nullptr) {
     Body body(b, a_from_b);
@@ -301,11 +302,11 @@ void examineMeshPair(const TriangleMesh& a, const Shape& b, const Eigen::Isometr
 }
 
 void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
-                   Search& search);
+                   CcdSearch& search);
 
 /// Ball by ball: slow, but no error of a hierarchy is possible.
 void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
-                  Search& search) {
+                  CcdSearch& search) {
   Eigen::Isometry3d ball_from_b = a_from_b;
   for (std::size_t i = 0; i < a.points().size(); ++i) {
     if (search.done()) return;
@@ -315,7 +316,7 @@ void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& 
 }
 
 void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
-                   Search& search) {
+                   CcdSearch& search) {
   if (const auto* cloudA = std::get_if<PointCloud>(&a)) {
     examineCloud(*cloudA, b, a_from_b, search);
   } else if (const auto* cloudB = std::get_if<PointCloud>(&b)) {
@@ -337,7 +338,7 @@ DistanceResult libccdDistance(const Shape& a, const Shape& b, const Eigen::Isome
                               const DistanceOptions& options) {
   DistanceResult result;
   if (!a_from_b.matrix().allFinite()) return result;
-  Search search{result.upper, options.enough, options.contact};
+  CcdSearch search{result.upper, options.enough, options.contact};
   examineShapes(a, b, a_from_b, search);
   result.upper = search.upper;
   result.iterations = search.evaluations;
@@ -347,7 +348,7 @@ DistanceResult libccdDistance(const Shape& a, const Shape& b, const Eigen::Isome
 Contact libccdIntersect(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b) {
   if (!a_from_b.matrix().allFinite()) return Contact::Unknown;
   // Started at the accuracy, the search has nothing to refine: it only searches for overlap.
-  Search search{tolerance::kLibccdDistance, 0.0, 0.0};
+  CcdSearch search{tolerance::kLibccdDistance, 0.0, 0.0};
   examineShapes(a, b, a_from_b, search);
   if (search.upper <= 0.0) return Contact::Touching;
   return search.unknown ? Contact::Unknown : Contact::Separate;

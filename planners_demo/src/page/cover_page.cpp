@@ -170,7 +170,7 @@ class OutsideParts {
   std::vector<Eigen::Vector3i> triangles_;
 };
 
-std::string outsideText(const LinkSphereReport& report) {
+std::string excessText(const LinkSphereReport& report) {
   if (report.spheres == 0) return "without a model";
   if (report.outside.upper <= 0.0) return "contained: proven";
   return "outside by " + clearanceText(report.outside.lower) + " to " +
@@ -217,7 +217,7 @@ void writeCoverPage(const Arguments& args, const Model& model, const Robot& robo
       content.tone = PageContent::Tone::Unsure;
     }
     content.facts.emplace_back(report.link, std::to_string(report.spheres) + ", " +
-                                                outsideText(report) + ", largest excess " +
+                                                excessText(report) + ", largest excess " +
                                                 clearanceText(report.excess.largest));
     addDrawingsOf(robot, robot.findLink(report.link).value_or(0), shapes, report, content);
   }

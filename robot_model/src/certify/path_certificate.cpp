@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "certify/work_limits.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "threads/for_each_index.hpp"
 
@@ -14,8 +15,6 @@ namespace swept {
 
 namespace {
 
-constexpr double kShareOfTolerance = 0.1;
-constexpr double kLeastAccuracy = 1e-5;  // m
 /// Segments between two calls of PathQuery::progress.
 constexpr std::size_t kBetween = 256;
 
@@ -24,8 +23,7 @@ CertifiedSegment certified(const Checker& checker, ConfigurationView from, Confi
   CertifiedSegment segment{.certificate = checker.certifyMotion(from, to, workspace),
                            .clearance = {}};
   if (clearance && segment.certificate.verdict != Verdict::Collision) {
-    const double accuracy =
-        std::max(kShareOfTolerance * checker.options().tolerance, kLeastAccuracy);
+    const double accuracy = detail::clearanceAccuracy(checker.options().tolerance);
     segment.clearance = checker.motionClearance(from, to, accuracy, workspace);
   }
   return segment;

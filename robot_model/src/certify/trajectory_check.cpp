@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certify/motion_check.hpp"
+#include "certify/work_limits.hpp"
 #include "kinematics/chord_path.hpp"
 #include "kinematics/curve_path.hpp"
 #include "trajectory/curve_limits.hpp"
@@ -20,9 +21,6 @@ namespace {
 /// Pieces of one run: it begins with eight sub-intervals, and its bounds on rates hold in all of
 /// one.
 constexpr std::size_t kMostPieces = 32;
-
-constexpr double kShareOfTolerance = 0.1;
-constexpr double kLeastAccuracy = 1e-5;  // m
 
 /// Pieces of a curve that are certified as one path.
 struct Part {
@@ -188,7 +186,7 @@ class TrajectoryCheck {
   }
 
   void measure() {
-    const double accuracy = std::max(kShareOfTolerance * model_.options.tolerance, kLeastAccuracy);
+    const double accuracy = clearanceAccuracy(model_.options.tolerance);
     TrajectoryClearance& world = found_.world.emplace();
     TrajectoryClearance& self = found_.self.emplace();
     parts_.forEach([&](const Part& part, const JointPath& path) {

@@ -38,4 +38,7 @@ inline bool workLeft(const CheckerModel& model, const Effort& effort) {
          effort.distances + effort.culled < mostQueries(model);
 }
 
+/// m. Of the least clearances that are measured beside a certificate of this tolerance, in m.
+inline double clearanceAccuracy(double tolerance) { return std::max(0.1 * tolerance, 1e-5); }
+
 }  // namespace swept::detail
