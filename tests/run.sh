@@ -13,7 +13,7 @@ results="$root/build/release/test-results"
 rm -rf "$results"
 mkdir -p "$results"
 status=0
-GTEST_OUTPUT="xml:$results/" ctest --test-dir "$root/build/release" --parallel 2 \
+GTEST_OUTPUT="xml:$results/" ctest --test-dir "$root/build/release" --parallel "$(nproc)" \
   --output-on-failure --no-tests=error --output-junit "$results/ctest.junit" || status=$?
 
 "$root/tests/count_results.sh" "$results"

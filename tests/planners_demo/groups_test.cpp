@@ -77,6 +77,10 @@ TEST(Groups, AnSrdfThatAcmMakesSaysTheSame) {
   // One that names no pair has them checked: somebody has decided.
   const std::string none = bare.folder().write("none.srdf", "<robot name='bare'/>");
   EXPECT_EQ(bare.run("check", {"0,0", "--srdf", none}).exitCode, 1);
+  const Outcome idle = bare.run("check", {"0,0", "--srdf", none, "--keep-default-contacts"});
+  EXPECT_EQ(idle.exitCode, 1);
+  EXPECT_THAT(idle.err, HasSubstr("--keep-default-contacts changes nothing: '" + none +
+                                  "' says which pairs are not checked"));
 }
 
 TEST(Groups, AProofSaysWhatItLeavesOutAndIsAboutTheSamePairs) {

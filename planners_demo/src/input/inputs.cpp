@@ -8,6 +8,7 @@
 
 #include "input/state_lists.hpp"
 #include "input/task.hpp"
+#include "input/work_cells.hpp"
 #include "output/whole_file.hpp"
 
 namespace swept {
@@ -204,10 +205,10 @@ Arguments inputsOf(const JsonValue& inputs) {
   visit(reader, args);
   if (args.robot.empty()) inputs.at("robot").refuse("a URDF file");
   reader.text("srdf", args.srdf);
-  args.keepDefaultContacts = true;
-  if (inputs.has(kWithoutDefaultContacts))
-    args.keepDefaultContacts = !inputs.at(kWithoutDefaultContacts).boolean();
   if (args.srdf != "none") reader.file("srdf", args.srdf);
+  const bool leavesOut =
+      inputs.has(kWithoutDefaultContacts) && inputs.at(kWithoutDefaultContacts).boolean();
+  args.keepDefaultContacts = !leavesOut && !isWorkCell(args) && chooseSrdf(args).file.empty();
   std::optional<double> margin, tolerance;
   reader.value("margin", margin);
   reader.value("margin_self", args.selfMargin);

@@ -43,6 +43,18 @@ CollisionRules defaultContactsOf(const Checker& checker) {
   return rules;
 }
 
+/// Who asks for pairs that nothing but a default leaves out is told what else decides.
+void warnOfIdleFlag(const Arguments& args, const SrdfChoice& srdf, bool sceneHasMatrix,
+                    Warnings& warnings) {
+  if (!args.keepDefaultContacts) return;
+  const std::string& decides = isWorkCell(args)    ? args.robot
+                               : srdf.file.empty() ? args.scene
+                                                   : srdf.file;
+  if (isWorkCell(args) || !srdf.file.empty() || sceneHasMatrix)
+    warnings("swept: warning: --keep-default-contacts changes nothing: '" + decides +
+             "' says which pairs are not checked");
+}
+
 }  // namespace
 
 SrdfChoice chooseSrdf(const Arguments& args) {
@@ -80,6 +92,7 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   addClouds(args, *model.robot, model.reference, options, world);
   model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));
   model.weakerRules = std::move(scene.rules);
+  warnOfIdleFlag(args, model.srdf, scene.hasMatrix, warnings);
   // A scene's matrix stands in place of all that nobody decided.
   if (leavesOutDefaultContacts(args) && !scene.hasMatrix) {
     DefaultContacts contacts = defaultContacts(*model.robot);
