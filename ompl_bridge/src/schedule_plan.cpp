@@ -302,12 +302,18 @@ class PriorityPlanner {
     return all;
   }
 
-  /// s. With something to spare: at the end, certifyDelays() divides delays otherwise.
-  double plannedDelay() const { return options_.delay > 0.0 ? 1.02 * options_.delay + 2e-3 : 0.0; }
+  bool asksForDelays() const { return options_.delay > 0.0 || options_.slowest > 1.0; }
+
+  ///@{
+  /// s, and a factor. With something to spare: at the end, certifyDelays() divides delays
+  /// otherwise.
+  double plannedDelay() const { return asksForDelays() ? 1.02 * options_.delay + 2e-3 : 0.0; }
+  double plannedSlowest() const { return 1.0 + 1.02 * (options_.slowest - 1.0); }
+  ///@}
 
   Way planOne(std::size_t task, const std::vector<std::string>& ignored, double wait) {
     const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored,
-                                 plannedDelay());
+                                 plannedDelay(), plannedSlowest());
     const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                             std::chrono::duration<double>(slice_)));
     const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
@@ -323,9 +329,10 @@ class PriorityPlanner {
     result.order = std::move(order);
     result.certificate = certifySchedule(checker_, all, {}, still_);
     bool isFree = result.certificate->verdict == Verdict::Free;
-    for (std::size_t i = 0; isFree && options_.delay > 0.0 && i < all.size(); ++i) {
-      result.delays.push_back(certifyDelays(checker_, all, {.curve = i, .latest = options_.delay},
-                                            still_, options_.stop));
+    for (std::size_t i = 0; isFree && asksForDelays() && i < all.size(); ++i) {
+      result.delays.push_back(certifyDelays(
+          checker_, all, {.curve = i, .latest = options_.delay, .slowest = options_.slowest},
+          still_, options_.stop));
       isFree = result.delays.back().verdict == Verdict::Free;
     }
     result.status = isFree ? Status::Found : Status::NotProven;
@@ -366,6 +373,9 @@ PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTas
   requirePlan(
       std::isfinite(options.delay) && options.delay >= 0.0,
       "delay is " + detail::numberText(options.delay) + " s; allowed are finite numbers from 0 on");
+  requirePlan(std::isfinite(options.slowest) && options.slowest >= 1.0,
+              "slowest is " + detail::numberText(options.slowest) +
+                  "; allowed are finite numbers from 1 on");
   requirePlan(options.improvements >= 0, "improvements is " + std::to_string(options.improvements) +
                                              "; allowed are 0 and more");
   return PriorityPlanner(checker, tasks, known, still, options).run();

@@ -198,6 +198,39 @@ TEST(SchedulePlan, EachMayBeLateByTheDelay) {
   EXPECT_EQ(certifySchedule(checker, later).verdict, Verdict::Collision);
 }
 
+TEST(SchedulePlan, EachMayBeSlowAndLate) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<ScheduleTask> tasks{pass("east"), pass("north")};
+  for (const double delay : {0.0, 0.3}) {
+    constexpr double kSlowest = 1.25;
+    const PlannedSchedule found =
+        planSchedule(checker, tasks, {}, {}, {.delay = delay, .slowest = kSlowest});
+    expectSound(checker, tasks, found);
+    ASSERT_EQ(found.delays.size(), 2U);
+    for (const DelayCertificate& each : found.delays) {
+      EXPECT_EQ(each.verdict, Verdict::Free);
+      EXPECT_EQ(each.proven, delay);
+    }
+    // The first leaves the crossing 0.95 s before it arrives, a quarter later if it is slow, and
+    // late. The second comes to it no sooner, and needs 1.35 s from there.
+    const double soonest = delay + kSlowest * (arrival(found, 0) - 0.95) + 1.35;
+    EXPECT_GE(arrival(found, 1), soonest - 1e-3);
+    EXPECT_LE(arrival(found, 1), soonest + 0.3);
+    for (std::size_t who = 0; who < 2; ++who)
+      for (double late = 0.0; late <= delay; late += 0.05)
+        for (double slower = 1.0; slower <= kSlowest; slower += 0.01)
+          for (double time = 0.0; time < lastArrival(found) + 2.0; time += 2e-3) {
+            const double x = at(found.curves[who], (time - late) / slower)[0];
+            const double y = at(found.curves[1 - who], time)[0];
+            ASSERT_FALSE(std::abs(x) < 0.2 && std::abs(y) < 0.2)
+                << who << ' ' << late << ' ' << slower << ' ' << time;
+          }
+    std::vector<ScheduledCurve> slower = found.curves;
+    slower[0].slowdown = 1.6;
+    EXPECT_EQ(certifySchedule(checker, slower).verdict, Verdict::Collision);
+  }
+}
+
 TEST(SchedulePlan, EachMayBeLateWhileAnObstacleIsNot) {
   // The cart passes the origin at 2 s, along z: `east` and `north` pass before or after it.
   const auto height = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };
@@ -507,6 +540,8 @@ TEST(SchedulePlan, WhatIsNotAllowedIsNamed) {
             "planSchedule: improvements is -1; allowed are 0 and more");
   EXPECT_EQ(message(task, {.delay = -1.0}),
             "planSchedule: delay is -1 s; allowed are finite numbers from 0 on");
+  EXPECT_EQ(message(task, {.slowest = 0.9}),
+            "planSchedule: slowest is 0.9; allowed are finite numbers from 1 on");
 }
 
 }  // namespace

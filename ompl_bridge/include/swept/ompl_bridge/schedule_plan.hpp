@@ -37,6 +37,8 @@ struct SchedulePlanOptions {
   /// s. Each curve, known or planned, may start late by up to so much, one at a time, and still
   /// nothing touches: PlannedSchedule::delays has the proofs. Moving obstacles keep their times.
   double delay = 0.0;
+  /// 1 or more. Likewise each may take up to so many times as long, with each of the delays.
+  double slowest = 1.0;
   int improvements = 2000;    ///< changes of each robot's way that are tried
   std::uint32_t seed = 1;     ///< of all random numbers
   std::stop_token stop = {};  ///< ends the search soon once it is requested
@@ -66,8 +68,8 @@ struct PlannedSchedule {
   std::vector<std::size_t> order = {};  ///< indices of the tasks, in the order of their priority
   /// Found, NotProven: of all curves, the known ones too: certifySchedule().
   std::optional<TrajectoryCertificate> certificate = {};
-  /// Likewise, if SchedulePlanOptions::delay is above 0: certifyDelays() of each known curve, then
-  /// of those of the tasks.
+  /// Likewise, if SchedulePlanOptions::delay is above 0, or slowest above 1: certifyDelays() of
+  /// each known curve, then of those of the tasks.
   std::vector<DelayCertificate> delays = {};
 
   bool found() const { return status == Status::Found; }  ///< whether it is there and proven
@@ -93,11 +95,11 @@ struct PlannedSchedule {
 /// proven.
 ///
 /// The same arguments give the same schedule, if it is found well before the time is up. Throws
-/// std::invalid_argument as combinedCurve() does; for no task; for an unknown group, one with
-/// variables beyond the checker's group or of another task; for another number of values or limits
-/// than variables; for values that are not finite or beyond the limits of positions; for a variable
-/// that has no limits of position and is not cyclic, and for one without limits of velocity and
-/// acceleration; and for options that are not allowed.
+/// std::invalid_argument as combinedCurve() and ScheduleChecker do; for no task; for an unknown
+/// group, one with variables beyond the checker's group or of another task; for another number of
+/// values or limits than variables; for values that are not finite or beyond the limits of
+/// positions; for a variable that has no limits of position and is not cyclic, and for one without
+/// limits of velocity and acceleration; and for options that are not allowed.
 PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
                              std::span<const ScheduledCurve> known = {},
                              ConfigurationView still = {}, const SchedulePlanOptions& options = {});
