@@ -84,9 +84,10 @@ struct PlannedSchedule {
 /// T. Lozano-Perez, On multiple moving objects, 1987). Those that come later stand at their starts
 /// (M. Cap et al., Prioritized planning algorithms for trajectory coordination of multiple mobile
 /// robots, 2015); where that leaves no way, they are left out, and have to make way. A robot that
-/// finds none goes first in the next attempt. Where as many orders as there are robots have failed,
-/// the first robot of each waits at its start, so that others get out of its way, and longer from
-/// round to round. So a schedule that exists may not be found.
+/// finds none goes first in the next attempt, and is not planned behind the same robots again.
+/// Where all orders that are left are such, or twice as many as there are robots have failed, the
+/// first robot of each waits at its start, so that others get out of its way, and longer from round
+/// to round. So a schedule that exists may not be found.
 ///
 /// One robot's way is searched for in configurations and time by two trees (F. Grothe et al.,
 /// ST-RRT*, 2022), whose edges are proven, then made earlier and shorter. It is what a controller
