@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "number_text.hpp"
+#include "priority_orders.hpp"
 #include "schedule_task.hpp"
 #include "space_time_improvement.hpp"
 #include "space_time_search.hpp"
@@ -145,7 +146,8 @@ class PriorityPlanner {
         deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(options.seconds))),
         slice_(tasks.size() == 1 ? options.seconds
-                                 : options.seconds / (4.0 * static_cast<double>(tasks.size()))) {
+                                 : options.seconds / (4.0 * static_cast<double>(tasks.size()))),
+        orders_(tasks.size()) {
     for (std::size_t i = 0; i < tasks.size(); ++i)
       own_.push_back(detail::readTask(checker, tasks[i], i));
     still_.assign(still.begin(), still.end());
@@ -168,39 +170,23 @@ class PriorityPlanner {
  private:
   bool isLate() const { return options_.stop.stop_requested() || Clock::now() >= deadline_; }
 
-  using Order = std::vector<std::size_t>;
+  using Order = detail::PriorityOrders::Order;
 
-  /// One round: up to as many orders as there are tasks, none twice. No value: none of them gave a
-  /// schedule, and the next round may.
+  /// One round. No value: none of its orders gave a schedule, and the next round may.
   std::optional<PlannedSchedule> tryOrders() {
-    Order order(own_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::set<Order> tried;
+    orders_.beginRound();
     while (true) {
+      const Order& order = orders_.current();
       ways_.assign(own_.size(), std::nullopt);
       const std::optional<std::size_t> failed = planInOrder(order);
-      if (!failed) return finish(std::move(order));
+      if (!failed) return finish(order);
       for (const std::optional<JointTrajectory>& way : ways_)
         if (way) longestWay_ = std::max(longestWay_, way->points.back().time);
       if (isLate() || own_.size() == 1 || isHopeless_) return std::move(found_);
       if (!goalsAreApart_ && goalsMeet(order)) return std::move(found_);
       if (failed == order.front()) slice_ *= 2.0;
-      tried.insert(order);
-      if (tried.size() == own_.size()) return std::nullopt;
-      order = nextOrder(std::move(order), *failed, tried);
+      if (!orders_.next(*failed)) return std::nullopt;
     }
-  }
-
-  /// Who found no way goes first or, if it did, last. Where that has been tried, the first order
-  /// that has not.
-  static Order nextOrder(Order order, std::size_t failed, const std::set<Order>& tried) {
-    const bool wasFirst = failed == order.front();
-    order.erase(std::ranges::find(order, failed));
-    order.insert(wasFirst ? order.end() : order.begin(), failed);
-    if (!tried.contains(order)) return order;
-    std::ranges::sort(order);
-    while (tried.contains(order)) std::ranges::next_permutation(order);
-    return order;
   }
 
   /// s. How long the robot of this task waits: only the first one does, in every other round.
@@ -302,12 +288,18 @@ class PriorityPlanner {
     return all;
   }
 
-  /// s. With something to spare: at the end, certifyDelays() divides delays otherwise.
-  double plannedDelay() const { return options_.delay > 0.0 ? 1.02 * options_.delay + 2e-3 : 0.0; }
+  bool asksForDelays() const { return options_.delay > 0.0 || options_.slowest > 1.0; }
+
+  ///@{
+  /// s, and a factor. With something to spare: at the end, certifyDelays() divides delays
+  /// otherwise.
+  double plannedDelay() const { return asksForDelays() ? 1.02 * options_.delay + 2e-3 : 0.0; }
+  double plannedSlowest() const { return 1.0 + 1.02 * (options_.slowest - 1.0); }
+  ///@}
 
   Way planOne(std::size_t task, const std::vector<std::string>& ignored, double wait) {
     const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored,
-                                 plannedDelay());
+                                 plannedDelay(), plannedSlowest());
     const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                             std::chrono::duration<double>(slice_)));
     const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
@@ -323,9 +315,10 @@ class PriorityPlanner {
     result.order = std::move(order);
     result.certificate = certifySchedule(checker_, all, {}, still_);
     bool isFree = result.certificate->verdict == Verdict::Free;
-    for (std::size_t i = 0; isFree && options_.delay > 0.0 && i < all.size(); ++i) {
-      result.delays.push_back(certifyDelays(checker_, all, {.curve = i, .latest = options_.delay},
-                                            still_, options_.stop));
+    for (std::size_t i = 0; isFree && asksForDelays() && i < all.size(); ++i) {
+      result.delays.push_back(certifyDelays(
+          checker_, all, {.curve = i, .latest = options_.delay, .slowest = options_.slowest},
+          still_, options_.stop));
       isFree = result.delays.back().verdict == Verdict::Free;
     }
     result.status = isFree ? Status::Found : Status::NotProven;
@@ -341,6 +334,7 @@ class PriorityPlanner {
   double longestWay_ = 0.0;  ///< s, of all that were found
   std::size_t round_ = 0;
   std::vector<OwnTask> own_;
+  detail::PriorityOrders orders_;
   std::vector<double> still_;
   std::vector<std::optional<JointTrajectory>> ways_;  ///< by task
   PlannedSchedule found_;                             ///< of the last failure
@@ -366,6 +360,9 @@ PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTas
   requirePlan(
       std::isfinite(options.delay) && options.delay >= 0.0,
       "delay is " + detail::numberText(options.delay) + " s; allowed are finite numbers from 0 on");
+  requirePlan(std::isfinite(options.slowest) && options.slowest >= 1.0,
+              "slowest is " + detail::numberText(options.slowest) +
+                  "; allowed are finite numbers from 1 on");
   requirePlan(options.improvements >= 0, "improvements is " + std::to_string(options.improvements) +
                                              "; allowed are 0 and more");
   return PriorityPlanner(checker, tasks, known, still, options).run();

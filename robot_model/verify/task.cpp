@@ -43,10 +43,10 @@ class Phase {
     if (!path_->is_object()) throw Refusal(where_ + ", path: not an object");
     if (!path_->contains("trajectory")) throw Refusal(where_ + ": there is no trajectory");
     modelJson_ = &at(*path_, "model", where_);
-    for (const Json& body : readList(*modelJson_, "bodies", where_))
-      if (body.contains("waypoints"))
-        throw Refusal(where_ + ": a body moves by itself, which none of a task does: " +
-                      body.value("name", Json()).dump());
+    // What moves by itself does so on the clock of the task.
+    if (path_->contains("clock") && (*path_)["clock"] != 0.0)
+      throw Refusal(where_ + ": the clock of what moves shows " + (*path_)["clock"].dump() +
+                    " s at the task's time 0");
   }
 
   const std::string& name() const { return name_; }

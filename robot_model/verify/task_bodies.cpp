@@ -24,9 +24,18 @@ Json shapesWithoutPoses(const Json& body) {
   return shapes;
 }
 
+/// By its waypoints. Such a body has no `link`.
+bool movesByItself(const Json& body) {
+  return !body.is_null() && body.contains("waypoints");
+}
+
+bool isCarried(const Json& body) {
+  return !body.is_null() && !movesByItself(body) && !body["link"].is_null();
+}
+
 /// `in the world`, `carried by hand`.
 std::string carriedText(const Json& body) {
-  return body["link"].is_null() ? "in the world" : "carried by " + body["link"].get<std::string>();
+  return isCarried(body) ? "carried by " + body["link"].get<std::string>() : "in the world";
 }
 
 }  // namespace
@@ -78,13 +87,17 @@ void BodyChanges::checkChange(const std::string& name, const Json& before, const
   const std::string stated = statedOf(name), in = " in " + bodies.phaseBefore;
   if (stated == "sensed") {
     for (const Json* body : {&before, &now})
-      if (!body->is_null() && !(*body)["link"].is_null())
+      if (isCarried(*body))
         refuse(name, "it is said to be sensed, and is " + carriedText(*body) +
                          (body == &before ? in : ""));
     return;
   }
   if (before.is_null()) refuse(name, "it was not there" + in);
   if (now.is_null()) refuse(name, "it is not there, and was" + in);
+  if (movesByItself(before) != movesByItself(now))
+    refuse(name, movesByItself(now) ? "it moves by itself, and did not" + in
+                                    : "it does not move by itself any more, as it did" + in);
+  if (movesByItself(now)) refuse(name, "it moves by itself, and not as it did" + in);
   if (shapesWithoutPoses(before) != shapesWithoutPoses(now))
     refuse(name, "its shape is not what it was" + in);
   if (before["link"] == now["link"]) refuse(name, "it is not where it was" + in);

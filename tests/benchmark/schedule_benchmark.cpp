@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Schedules of two equal arms that face each other, planned by planSchedule() between random
-// states: `schedule_benchmark URDF SRDF GROUP [RADIUS [SCHEDULES [DELAY [SAMPLES]]]]` (m from the
-// middle, default 0.5; default 100 schedules; s, default 0; default 1000 delays of each). Beside
-// each the same two ways one after the other.
+// states: `schedule_benchmark URDF SRDF GROUP [RADIUS [SCHEDULES [DELAY [SAMPLES [SLOWEST]]]]]` (m
+// from the middle, default 0.5; default 100 schedules; s, default 0; default 1000 delays of each;
+// how many times as long each may take, default 1). Beside each the same two ways one after the
+// other.
 //
 // A schedule that is proven is looked at each ms, by a cubic of its own between the points of the
-// trajectories; with a delay also, each 10 ms, with random delays of one of the two. A state in
-// collision refutes it, and ends with 2.
+// trajectories; with a delay or a slowdown also, each 10 ms, with random ones of one of the two. A
+// state in collision refutes it, and ends with 2.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -58,18 +59,25 @@ void put(const JointTrajectory& trajectory, double time, double* q) {
   }
 }
 
-/// Samples in collision, with each trajectory late by so much (s).
+/// By how much a trajectory is late (s), and how many times as long it takes.
+struct Late {
+  double delay = 0.0, slowdown = 1.0;
+};
+
+/// Samples in collision, with each trajectory as late as that.
 int refuted(const Checker& checker, const PlannedSchedule& plan, double step,
-            const std::vector<double>& late, Workspace& workspace) {
+            const std::vector<Late>& late, Workspace& workspace) {
   const std::size_t size = plan.trajectories.front().variables.size();
   std::vector<double> q(2 * size);
   double end = 0.0;
   for (std::size_t arm = 0; arm < 2; ++arm)
-    end = std::max(end, late[arm] + plan.trajectories[arm].points.back().time);
+    end = std::max(
+        end, late[arm].delay + late[arm].slowdown * plan.trajectories[arm].points.back().time);
   int count = 0;
   for (double time = 0.0; time <= end; time += step) {
     for (std::size_t arm = 0; arm < 2; ++arm)
-      put(plan.trajectories[arm], time - late[arm], q.data() + arm * size);
+      put(plan.trajectories[arm], (time - late[arm].delay) / late[arm].slowdown,
+          q.data() + arm * size);
     if (checker.checkState(q, workspace) == Verdict::Collision) ++count;
   }
   return count;
@@ -89,11 +97,13 @@ double lastArrival(const PlannedSchedule& plan) {
 
 class Benchmark {
  public:
-  Benchmark(std::shared_ptr<const Robot> robot, const std::string& group, double delay, int samples)
+  Benchmark(std::shared_ptr<const Robot> robot, const std::string& group, double delay, int samples,
+            double slowest)
       : robot_(std::move(robot)),
         checker_(robot_, "arms", std::make_shared<World>()),
         workspace_(checker_),
         delay_(delay),
+        slowest_(slowest),
         samples_(samples) {
     for (const char* arm : {"arm1/", "arm2/"}) {
       const Group& own = *robot_->findGroup(arm + group);
@@ -150,17 +160,19 @@ class Benchmark {
 
   void planBoth() {
     const auto begin = std::chrono::steady_clock::now();
-    const PlannedSchedule plan = planSchedule(checker_, tasks_, {}, {}, {.delay = delay_});
+    const PlannedSchedule plan =
+        planSchedule(checker_, tasks_, {}, {}, {.delay = delay_, .slowest = slowest_});
     seconds_.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     ++statuses_[static_cast<std::size_t>(plan.status)];
     if (!plan.found()) return;
     arrivals_.push_back(lastArrival(plan));
-    refuted_ += refuted(checker_, plan, 1e-3, {0.0, 0.0}, workspace_);
-    for (int k = 0; delay_ > 0.0 && k < samples_; ++k) {
-      std::vector<double> late(2, 0.0);
-      late[static_cast<std::size_t>(k % 2)] =
-          std::uniform_real_distribution<double>(0.0, delay_)(random_);
+    refuted_ += refuted(checker_, plan, 1e-3, std::vector<Late>(2), workspace_);
+    for (int k = 0; (delay_ > 0.0 || slowest_ > 1.0) && k < samples_; ++k) {
+      std::vector<Late> late(2);
+      late[static_cast<std::size_t>(k % 2)] = {
+          std::uniform_real_distribution<double>(0.0, delay_)(random_),
+          std::uniform_real_distribution<double>(1.0, slowest_)(random_)};
       ++delays_;
       delaysRefuted_ += refuted(checker_, plan, 1e-2, late, workspace_);
     }
@@ -186,7 +198,7 @@ class Benchmark {
   const std::shared_ptr<const Robot> robot_;
   const Checker checker_;
   Workspace workspace_;
-  const double delay_;
+  const double delay_, slowest_;
   const int samples_;
   std::mt19937 random_{1};
   std::vector<ScheduleTask> tasks_;
@@ -199,15 +211,18 @@ class Benchmark {
 
 int main(int argc, char** argv) try {
   if (argc < 4) {
-    std::cerr
-        << "usage: schedule_benchmark URDF SRDF GROUP [RADIUS [SCHEDULES [DELAY [SAMPLES]]]]\n";
+    std::cerr << "usage: schedule_benchmark URDF SRDF GROUP [RADIUS [SCHEDULES [DELAY [SAMPLES "
+                 "[SLOWEST]]]]]"
+                 "\n";
     return 1;
   }
   const double radius = argc > 4 ? std::stod(argv[4]) : 0.5;
   const int count = argc > 5 ? std::stoi(argv[5]) : 100;
   const double delay = argc > 6 ? std::stod(argv[6]) : 0.0;
   const int samples = argc > 7 ? std::stoi(argv[7]) : 1000;
-  return Benchmark(facing(argv[1], argv[2], argv[3], radius), argv[3], delay, samples).run(count);
+  const double slowest = argc > 8 ? std::stod(argv[8]) : 1.0;
+  return Benchmark(facing(argv[1], argv[2], argv[3], radius), argv[3], delay, samples, slowest)
+      .run(count);
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;

@@ -58,18 +58,29 @@ std::shared_ptr<const Robot> crossing() {
                       "crossing.srdf");
 }
 
-/// Two such cubes on one plane, each of which slides along x and y, by so much from 0 (m).
-std::shared_ptr<const Robot> plane(double alongX = 3.0, double alongY = 3.0) {
+/// Such cubes on one plane, each of which slides along x and y, by so much from 0 (m). `all`: the
+/// group of them all.
+std::shared_ptr<const Robot> planeOf(const std::vector<std::string>& cubes, const std::string& all,
+                                     double alongX, double alongY) {
   std::string links = "<link name='base'/>", joints, groups;
-  for (const std::string one : {"a", "b"}) {
+  std::vector<std::string> names;
+  for (const std::string& one : cubes) {
     links += "<link name='" + one + "_rail'/>" + cube(one);
     joints += slide(one + "_x", "base", one + "_rail", "1 0 0", alongX) +
               slide(one + "_y", one + "_rail", one, "0 1 0", alongY);
     groups += group(one, {one + "_x", one + "_y"});
+    names.insert(names.end(), {one + "_x", one + "_y"});
   }
-  groups += group("both", {"a_x", "a_y", "b_x", "b_y"});
+  groups += group(all, names);
   return Robot::parse("<robot name='plane'>" + links + joints + "</robot>", "plane.urdf",
                       "<robot name='plane'>" + groups + "</robot>", "plane.srdf");
+}
+
+std::shared_ptr<const Robot> plane(double alongX = 3.0, double alongY = 3.0) {
+  return planeOf({"a", "b"}, "both", alongX, alongY);
+}
+std::shared_ptr<const Robot> threeOnAPlane() {
+  return planeOf({"a", "b", "c"}, "all", 3.0, 3.0);
 }
 
 Checker checkerOf(const std::shared_ptr<const Robot>& robot, World world = {}) {
@@ -198,6 +209,39 @@ TEST(SchedulePlan, EachMayBeLateByTheDelay) {
   EXPECT_EQ(certifySchedule(checker, later).verdict, Verdict::Collision);
 }
 
+TEST(SchedulePlan, EachMayBeSlowAndLate) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<ScheduleTask> tasks{pass("east"), pass("north")};
+  for (const double delay : {0.0, 0.3}) {
+    constexpr double kSlowest = 1.25;
+    const PlannedSchedule found =
+        planSchedule(checker, tasks, {}, {}, {.delay = delay, .slowest = kSlowest});
+    expectSound(checker, tasks, found);
+    ASSERT_EQ(found.delays.size(), 2U);
+    for (const DelayCertificate& each : found.delays) {
+      EXPECT_EQ(each.verdict, Verdict::Free);
+      EXPECT_EQ(each.proven, delay);
+    }
+    // The first leaves the crossing 0.95 s before it arrives, a quarter later if it is slow, and
+    // late. The second comes to it no sooner, and needs 1.35 s from there.
+    const double soonest = delay + kSlowest * (arrival(found, 0) - 0.95) + 1.35;
+    EXPECT_GE(arrival(found, 1), soonest - 1e-3);
+    EXPECT_LE(arrival(found, 1), soonest + 0.3);
+    for (std::size_t who = 0; who < 2; ++who)
+      for (double late = 0.0; late <= delay; late += 0.05)
+        for (double slower = 1.0; slower <= kSlowest; slower += 0.01)
+          for (double time = 0.0; time < lastArrival(found) + 2.0; time += 2e-3) {
+            const double x = at(found.curves[who], (time - late) / slower)[0];
+            const double y = at(found.curves[1 - who], time)[0];
+            ASSERT_FALSE(std::abs(x) < 0.2 && std::abs(y) < 0.2)
+                << who << ' ' << late << ' ' << slower << ' ' << time;
+          }
+    std::vector<ScheduledCurve> slower = found.curves;
+    slower[0].slowdown = 1.6;
+    EXPECT_EQ(certifySchedule(checker, slower).verdict, Verdict::Collision);
+  }
+}
+
 TEST(SchedulePlan, EachMayBeLateWhileAnObstacleIsNot) {
   // The cart passes the origin at 2 s, along z: `east` and `north` pass before or after it.
   const auto height = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };
@@ -271,6 +315,19 @@ World aisle() {
   return world;
 }
 
+/// An aisle along x from 0 on, 0.3 m wide and closed at 1.6 m.
+World aisleWithOneEnd() {
+  World world;
+  const auto wall = [&](const std::string& name, double x0, double x1, double y0, double y1) {
+    world.add(name, makeBox({x1 - x0, y1 - y0, 0.2}),
+              Eigen::Isometry3d(Eigen::Translation3d(0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.0)));
+  };
+  wall("south", 0.0, 1.8, -3.2, -0.15);
+  wall("north", 0.0, 1.8, 0.15, 3.2);
+  wall("end", 1.6, 1.8, -0.15, 0.15);
+  return world;
+}
+
 TEST(SchedulePlan, TheFirstWaitsWhereTwoMeetInAnAisle) {
   // Whoever goes first at once is in the middle before the other can be in the bay.
   const Checker checker = checkerOf(plane(1.2, 0.45), aisle());
@@ -286,6 +343,20 @@ TEST(SchedulePlan, TheFirstWaitsWhereTwoMeetInAnAisle) {
     highest = std::max({highest, at(found.curves[0], time)[1], at(found.curves[1], time)[1]});
   }
   EXPECT_GE(highest, 0.15);  // one of them was in the bay
+}
+
+TEST(SchedulePlan, ThreeGoIntoAnAisleInTheOnlyOrder) {
+  // The goals of `b`, `c` and `a` are behind each other in an aisle that has one end. `a` is there
+  // soonest, and `c` sooner than `b`. In any other order one has to wait for those after it.
+  const Checker checker(threeOnAPlane(), "all", std::make_shared<World>(aisleWithOneEnd()));
+  const std::vector<ScheduleTask> tasks{
+      {.group = "a", .start = {-0.5, 0.5}, .goals = {{0.3, 0.0}}, .limits = limits(2, 1.0)},
+      {.group = "b", .start = {-0.5, 0.0}, .goals = {{1.3, 0.0}}, .limits = limits(2, 0.25)},
+      {.group = "c", .start = {-0.5, -0.5}, .goals = {{0.8, 0.0}}, .limits = limits(2, 0.5)}};
+  const PlannedSchedule found =
+      planSchedule(checker, tasks, {}, {}, {.seconds = 12.0, .improvements = 100});
+  expectSound(checker, tasks, found);
+  EXPECT_EQ(found.order, (std::vector<std::size_t>{1, 2, 0}));
 }
 
 /// A comb of two teeth, 2 m and 2.1 m behind its place, slides along x; a cube slides along y
@@ -507,6 +578,8 @@ TEST(SchedulePlan, WhatIsNotAllowedIsNamed) {
             "planSchedule: improvements is -1; allowed are 0 and more");
   EXPECT_EQ(message(task, {.delay = -1.0}),
             "planSchedule: delay is -1 s; allowed are finite numbers from 0 on");
+  EXPECT_EQ(message(task, {.slowest = 0.9}),
+            "planSchedule: slowest is 0.9; allowed are finite numbers from 1 on");
 }
 
 }  // namespace

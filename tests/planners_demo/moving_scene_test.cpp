@@ -141,14 +141,32 @@ TEST_F(MovingScene, RulesMayNameIt) {
 
 TEST_F(MovingScene, CommandsWithoutAClockRefuseIt) {
   const std::string clocks =
-      " has no clock; swept check --time, motion --times, trajectory and schedule have one, and "
-      "swept schedule --plan plans beside what moves\n";
+      " has no clock; swept check --time, motion --times, trajectory, schedule and view --time "
+      "have "
+      "one, and swept schedule --plan plans beside what moves\n";
   const std::string moves = kError + "object 'cart' of the scene moves, and swept ";
   EXPECT_EQ(run("plan", {"0,0", "2,0"}).err, moves + "plan" + clocks);
   EXPECT_EQ(run("certify", {csv("slide,lift\n0,0\n1,0\n")}).err, moves + "certify" + clocks);
-  if (programHasPages()) {
-    EXPECT_EQ(run("view", {}).err, moves + "view" + clocks);
-  }
+}
+
+TEST_F(MovingScene, APageShowsItWhereItIs) {
+  if (!programHasPages()) GTEST_SKIP() << "the program has no pages";
+  const std::string page = gantry_.folder().path("page.html");
+  const auto shown = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"-o", page});
+    const Outcome outcome = run("view", more);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::ifstream stream(page);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  EXPECT_THAT(shown({"1,0", "1,0.5", "--time", "3.5"}),
+              AllOf(HasSubstr("state 1 at 3.5 s"), HasSubstr("state 2 at 3.5 s")));
+  EXPECT_THAT(shown({}), HasSubstr("default state at 1 s"));  // when the cart begins to move
+  EXPECT_THAT(shown({"--time", "2"}), HasSubstr("default state at 2 s"));
+  EXPECT_EQ(run("view", {"1,0", "-o", page}).err,
+            kError + "object 'cart' of the scene moves: --time S says when the states are shown\n");
+  EXPECT_EQ(gantry_.run("view", {"0,0", "--time", "3", "-o", page}).err,
+            kError + "--time: no object of the scene moves (an object with a 'motion' does)\n");
 }
 
 TEST_F(MovingScene, TimesThatAreMissingOrWrongAreNamed) {

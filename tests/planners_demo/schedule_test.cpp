@@ -165,6 +165,10 @@ TEST_F(ScheduleProgram, PlansSeveralGroups) {
   // What is planned leaves room for the delays that are asked about.
   EXPECT_EQ(run.exitCode, 0) << run.out;
   EXPECT_THAT(run.out, HasSubstr("late          north: free up to 0.5 s"));
+  const Outcome slow = schedule({"--plan", "east=-1..1", "--plan", "north=-1..1",
+                                 "--max-acceleration", "10", "--slow", "east=20"});
+  EXPECT_EQ(slow.exitCode, 0) << slow.out << slow.err;
+  EXPECT_THAT(slow.out, HasSubstr("east: free up to 0 s, at up to 20 % slower"));
 
   const Outcome meet =
       schedule({"--plan", "east=-1..0", "--plan", "north=-1..0.1", "--max-acceleration", "10"});

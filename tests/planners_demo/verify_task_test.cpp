@@ -48,6 +48,24 @@ TEST_F(VerifyTask, SaysALineForEachPhaseAndThenOfTheWhole) {
   EXPECT_THAT(lines[7], StartsWith("every pair keeps more than "));
 }
 
+TEST_F(VerifyTask, SaysWhatMovesBesideAPhase) {
+  std::vector<TaskPhase> all = phases();
+  for (TaskPhase& phase : all) {
+    phase.checker = std::make_shared<const Checker>(phase.checker->withObstacle(
+        {.name = "cart",
+         .parts = {{makeSphere(0.1), Eigen::Isometry3d::Identity()}},
+         .waypoints = {{0.0, test::at(-1.0, 3.0, 0.5)}, {6.0, test::at(1.0, 3.0, 0.5)}}}));
+    certify(phase);
+  }
+  const std::string file = written(all);
+  const test::Outcome run = test::runSwept({"verify", file});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(linesOf(run.out)[0], HasSubstr("; beside what moves: cart"));
+  const nlohmann::json json = test::jsonOf(test::runSwept({"verify", file, "--json"}));
+  EXPECT_EQ(json["phases"][1]["moving"], nlohmann::json({"cart"}));
+  EXPECT_EQ(json["phases"][1]["clock"][0], json["phases"][1]["begin"]);
+}
+
 TEST_F(VerifyTask, AsJson) {
   const nlohmann::json json = test::jsonOf(test::runSwept({"verify", written(phases()), "--json"}));
   EXPECT_EQ(json["verified"], true);

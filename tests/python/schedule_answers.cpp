@@ -49,7 +49,7 @@ void addCombined(Answer& answer, const Checker& checker,
   }
 }
 
-/// Both arms from q to the goals in `more`, and then a seed and a delay.
+/// Both arms from q to the goals in `more`, and then a seed, a delay and the slowest factor.
 void addPlan(Answer& answer, const Checker& checker, ConfigurationView q,
              std::span<const double> more) {
   const std::size_t half = q.size() / 2;
@@ -66,6 +66,7 @@ void addPlan(Answer& answer, const Checker& checker, ConfigurationView q,
   const PlannedSchedule found = planSchedule(checker, tasks, {}, {},
                                              {.seconds = 600.0,
                                               .delay = more[q.size() + 1],
+                                              .slowest = more[q.size() + 2],
                                               .improvements = 30,
                                               .seed = static_cast<std::uint32_t>(more[q.size()])});
   std::string status = toString(found.status);

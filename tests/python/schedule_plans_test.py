@@ -43,12 +43,14 @@ def test_plans_against_cpp(arms, both):
     random = np.random.default_rng(5)
     reach, tuck = np.array(REACHING, float), tucked(arms, "left/arm")
     rows = []
-    for seed, delay in ((1, 0.0), (3, 0.1)):
+    for seed, delay, slowest in ((1, 0.0, 1.0), (3, 0.1, 1.02)):
         near = random.uniform(-0.1, 0.1, (4, 7))
-        rows.append(np.hstack([tuck + near[0], reach + near[1], reach + near[2], tuck + near[3], [seed, delay]]))
+        rows.append(np.hstack([tuck + near[0], reach + near[1], reach + near[2], tuck + near[3],
+                               [seed, delay, slowest]]))
     for words, row in zip(asked.ask("plan_schedule", rows), rows):
         tasks = tasks_of(arms, (row[:7], row[7:14]), (row[14:21], row[21:28]))
-        found = swept.plan_schedule(both, tasks, seconds=600, improvements=30, seed=int(row[28]), delay=row[29])
+        found = swept.plan_schedule(both, tasks, seconds=600, improvements=30, seed=int(row[28]), delay=row[29],
+                                    slowest=row[30])
         assert found and found.status is ScheduleStatus.FOUND and found.task is None
         assert str(found.status).replace(" ", "_") == words[0]
         expected = [value for trajectory in found.trajectories
@@ -120,6 +122,10 @@ def test_what_is_refused(arms, both):
         swept.plan_schedule(both, [task])
     with pytest.raises(swept.ArgumentError, match="delay is -1 s; allowed are finite numbers from 0 on"):
         swept.plan_schedule(both, [task], still=np.zeros(14), delay=-1)
+    with pytest.raises(swept.ArgumentError, match="slowest is 0.5; allowed are finite numbers from 1 on"):
+        swept.plan_schedule(both, [task], still=np.zeros(14), slowest=0.5)
+    with pytest.raises(swept.ArgumentError, match="the slowest factor is 0.5; allowed are finite numbers from 1 on"):
+        swept.ScheduleChecker(both, arms.group("left/arm").variable_names, still=np.zeros(14), slowest=0.5)
     with pytest.raises(swept.ArgumentError, match="there is no group 'arm'"):
         swept.plan_schedule(both, [swept.ScheduleTask("arm", start, [start], limits)], still=np.zeros(14))
     with pytest.raises(swept.ArgumentError, match="there is no own variable"):

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <random>
@@ -140,6 +142,80 @@ TEST(ScheduleChecker, DelaysAreProvenUpToTheTruth) {
   }
 }
 
+TEST(ScheduleChecker, SlowdownsAreProvenUpToTheTruth) {
+  const Checker checker = checkerOf(crossing());
+  for (const double slowest : {1.05, 1.25, 2.0}) {
+    for (const double delay : {0.0, 0.3}) {
+      const auto verdict = [&](double begin, double ofOther) {
+        const ScheduleChecker beside(checker, {"east"},
+                                     {{.variables = {"north"}, .curve = pass(), .start = ofOther}},
+                                     kAway, {}, delay, slowest);
+        EXPECT_NEAR(beside.end(), delay + ofOther + slowest * 2.0, 1e-12);
+        Workspace workspace(beside.checker());
+        return beside.certify(pass(begin), workspace).verdict;
+      };
+      // The other one leaves at 1.2 s. If it is slow, the own one must not come before that.
+      const double after = delay + slowest * 1.2 - 0.8;
+      EXPECT_NE(verdict(after - 0.15, 0.0), Verdict::Free) << slowest << ' ' << delay;
+      EXPECT_NE(verdict(after - 0.01, 0.0), Verdict::Free) << slowest << ' ' << delay;
+      EXPECT_EQ(verdict(after + 0.08, 0.0), Verdict::Free) << slowest << ' ' << delay;
+      // The other one comes at 5.8 s. If the own one is slow, it must have left by then.
+      const double before = (5.8 - delay) / slowest - 1.2;
+      EXPECT_EQ(verdict(before - 0.08, 5.0), Verdict::Free) << slowest << ' ' << delay;
+      EXPECT_NE(verdict(before + 0.01, 5.0), Verdict::Free) << slowest << ' ' << delay;
+      EXPECT_NE(verdict(before + 0.15, 5.0), Verdict::Free) << slowest << ' ' << delay;
+    }
+  }
+}
+
+/// The least size of what is between two values.
+double leastSizeBetween(double a, double b) {
+  return a * b <= 0.0 ? 0.0 : std::min(std::abs(a), std::abs(b));
+}
+
+TEST(ScheduleChecker, EveryDelayAndSlowdownIsWeighedByHand) {
+  // How near two passes come, with all delays and slowdowns of either: at each time of the own one,
+  // those of the other are an interval, and its places are one, too.
+  const Checker checker = checkerOf(crossing());
+  std::mt19937 random(5);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * 0x1p-32 * static_cast<double>(random());
+  };
+  std::array<int, 3> count{};  // colliding, undecided, free
+  for (int i = 0; i < 300; ++i) {
+    const double delay = i % 3 == 0 ? 0.0 : uniform(0.0, 1.0), slowest = uniform(1.0, 1.4);
+    const double begin = uniform(0.0, 4.0), start = uniform(0.0, 4.0), factor = uniform(0.5, 2.0);
+    const ScheduleChecker beside(
+        checker, {"east"},
+        {{.variables = {"north"}, .curve = pass(), .start = start, .slowdown = factor}}, kAway, {},
+        delay, slowest);
+    Workspace workspace(beside.checker());
+    const Verdict verdict = beside.certify(pass(begin), workspace).verdict;
+    const auto own = [&](double time) { return std::clamp(time - begin - 1.0, -1.0, 1.0); };
+    const auto other = [&](double time) {
+      return std::clamp((time - start) / factor - 1.0, -1.0, 1.0);
+    };
+    double apart = 10.0;
+    for (double time = begin; time <= begin + 2.0; time += 1e-3) {
+      const double x = std::abs(own(time));
+      // The own one is late: it is here when the clock shows `time` to `until`.
+      const double until = delay + slowest * time;
+      apart = std::min(apart, std::max(x, leastSizeBetween(other(time), other(until))));
+      // The other one is late: it does now what it did since then, once it has begun.
+      const double since = start + std::min((time - start - delay) / slowest, time - start - delay);
+      apart = std::min(apart, std::max(x, leastSizeBetween(other(since), other(time))));
+    }
+    // Times are 1 ms apart, in which each goes at most 2 mm.
+    EXPECT_FALSE(verdict == Verdict::Free && apart < 0.2 - 2e-3) << i << ' ' << apart;
+    EXPECT_FALSE(verdict == Verdict::Collision && apart > 0.2 + 2e-3) << i << ' ' << apart;
+    EXPECT_FALSE(verdict != Verdict::Free && apart > 0.25) << i << ' ' << apart;
+    ++count[verdict == Verdict::Collision ? 0 : verdict == Verdict::Free ? 2 : 1];
+  }
+  EXPECT_GE(count[0], 60);
+  EXPECT_LE(count[1], 60);
+  EXPECT_GE(count[2], 60);
+}
+
 TEST(ScheduleChecker, ObstaclesKeepTheirTimesWhileTheCurveIsLate) {
   // It passes the origin at 4 s. They meet if they pass less than 0.4 s apart.
   const Checker checker = besideCart({{3.0, -1.0}, {5.0, 1.0}});
@@ -254,6 +330,13 @@ TEST(ScheduleChecker, WhatIsNotAllowedIsNamed) {
             "combinedCurve: two curves move 'east'");
   EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"east"}, {}, kAway, {"west"}); }),
             "ScheduleChecker: the robot has no variable 'west'");
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"east"}, {}, kAway, {}, 0.0, 0.5); }),
+            "ScheduleChecker: the slowest factor is 0.5; allowed are finite numbers from 1 on");
+  const std::vector<ScheduledCurve> early{
+      {.variables = {"north"}, .curve = pass(-1.0), .start = 1.0}};
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"east"}, early, kAway, {}, 0.0, 1.1); }),
+            "ScheduleChecker: curve 1 of others begins at -1 s of its own time; with a slowdown, "
+            "allowed are 0 and later");
   const ScheduleChecker beside(checker, {"east"}, {}, kAway);
   Workspace workspace(beside.checker());
   EXPECT_EQ(messageOf([&] {

@@ -108,7 +108,7 @@ void bindPlannedSchedule(py::module_& module) {
 
 PlannedSchedule plan(const CheckerHandle& checker, const Tasks& tasks, const Curves& known,
                      const py::object& still, double seconds, double latest, double delay,
-                     int improvements, std::uint32_t seed,
+                     double slowest, int improvements, std::uint32_t seed,
                      const std::shared_ptr<CancellationToken>& cancel) {
   std::vector<double> rest;
   if (!still.is_none()) rest = listOf(readVector(still, "still", checker.dimension()));
@@ -118,6 +118,7 @@ PlannedSchedule plan(const CheckerHandle& checker, const Tasks& tasks, const Cur
                          {.seconds = seconds,
                           .latest = latest,
                           .delay = delay,
+                          .slowest = slowest,
                           .improvements = improvements,
                           .seed = seed,
                           .stop = stop});
@@ -127,12 +128,12 @@ PlannedSchedule plan(const CheckerHandle& checker, const Tasks& tasks, const Cur
 
 std::shared_ptr<ScheduleChecker> makeChecker(const CheckerHandle& checker, Names names,
                                              Curves others, const py::object& still,
-                                             const Names& ignored, double delay) {
+                                             const Names& ignored, double delay, double slowest) {
   std::vector<double> rest;
   if (!still.is_none()) rest = listOf(readVector(still, "still", checker.dimension()));
   const py::gil_scoped_release released;
   return std::make_shared<ScheduleChecker>(checker.checker(), std::move(names), std::move(others),
-                                           rest, ignored, delay);
+                                           rest, ignored, delay, slowest);
 }
 
 void bindScheduleChecker(py::module_& module) {
@@ -143,14 +144,15 @@ void bindScheduleChecker(py::module_& module) {
       "threads may use one.");
   type.def(py::init(&makeChecker), py::arg("checker"), py::arg("variable_names"),
            py::arg("others") = Curves(), py::kw_only(), py::arg("still") = py::none(),
-           py::arg("ignored") = Names(), py::arg("delay") = 0.0,
+           py::arg("ignored") = Names(), py::arg("delay") = 0.0, py::arg("slowest") = 1.0,
            "`checker`: of a group that has all variables. `variable_names`: the own ones. "
            "`others`: a list of ScheduledCurve, none of an own\nvariable. `still`: (n,) "
            "configuration of the group, for variables that no curve moves. `ignored`: names of "
            "variables about which nothing is\nknown yet: pairs that they move against the own ones "
            "are left out. `delay`: s; what is proven holds also if the own curve, or all of the\n"
-           "others, start late by up to so much. Raises ArgumentError for names that are "
-           "unknown or have no value, and for a delay that is\nnegative.")
+           "others, start late by up to so much. `slowest`: factor; likewise if these take up to "
+           "so many times as long. Raises ArgumentError for names\nthat are unknown or have no "
+           "value, for a delay that is negative, and for a slowest factor below 1.")
       .def(
           "certify",
           [](const ScheduleChecker& self, const py::object& curve, const py::object& query) {
@@ -187,16 +189,17 @@ void bindSchedulePlans(py::module_& module) {
       "plan_schedule", &plan, py::arg("checker"), py::arg("tasks"), py::arg("known") = Curves(),
       py::kw_only(), py::arg("still") = py::none(), py::arg("seconds") = usual.seconds,
       py::arg("latest") = usual.latest, py::arg("delay") = usual.delay,
-      py::arg("improvements") = usual.improvements, py::arg("seed") = usual.seed,
-      py::arg("cancel") = py::none(),
+      py::arg("slowest") = usual.slowest, py::arg("improvements") = usual.improvements,
+      py::arg("seed") = usual.seed, py::arg("cancel") = py::none(),
       "PlannedSchedule: plans the ways of one or several robots on one clock, a list of "
       "ScheduleTask, beside `known`, a list of ScheduledCurve,\nand beside moving obstacles. The "
       "first has priority. `still`: (n,) configuration of the checker's group, for variables that "
       "are neither\nof a task nor of a known curve. `seconds`: s, for the search. `latest`: s, "
       "when "
       "the last one rests at its goal. `delay`: s, by which each may\nstart late, one at a time. "
-      "`improvements`: changes of each robot's way that are tried. The same arguments give the "
-      "same schedule, if it is\nfound well before the time is up. Raises Cancelled when the token "
+      "`slowest`: factor; likewise each may take up to so many times as long. "
+      "`improvements`: changes of each robot's\nway that are tried. The same arguments give the "
+      "same schedule, if it is found well before the time is up. Raises Cancelled when the token "
       "`cancel` is cancelled; Ctrl-C ends it, too. Raises ArgumentError for a\ngroup that is "
       "unknown or shared by two tasks, values beyond limits, and limits that are missing.");
 }

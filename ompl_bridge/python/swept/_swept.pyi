@@ -1064,6 +1064,7 @@ class ScheduleChecker:
         still: Optional[_Vector] = ...,
         ignored: Sequence[str] = ...,
         delay: float = ...,
+        slowest: float = ...,
     ) -> None: ...
     def certify(
         self, curve: Union[Curve, Trajectory], query: Optional[MotionQuery] = ...
@@ -1114,6 +1115,7 @@ def plan_schedule(
     seconds: float = ...,
     latest: float = ...,
     delay: float = ...,
+    slowest: float = ...,
     improvements: int = ...,
     seed: int = ...,
     cancel: Optional[CancellationToken] = ...,

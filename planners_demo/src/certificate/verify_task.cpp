@@ -50,6 +50,7 @@ std::string phaseText(std::size_t number, const verify::PhaseSummary& phase, con
   text += std::isinf(proof.clearance)
               ? std::string(", no pair to check")
               : ", every pair keeps more than " + shortNumber(proof.clearance) + " m";
+  if (!proof.moving.empty()) text += "; beside what moves: " + joined(proof.moving);
   for (const std::string& constraint : proof.constraints)
     text += "; at every instant: " + constraint;
   for (const auto& [reason, pairs] : others)

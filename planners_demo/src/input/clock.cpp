@@ -47,8 +47,8 @@ void requireClock(const Arguments& args, const World& world) {
   if (world.obstacles().empty()) return;
   if (!args.command->hasClock)
     throw UsageError(movesText(world) + ", and swept " + std::string(args.command->name) +
-                     " has no clock; swept check --time, motion --times, trajectory and schedule "
-                     "have one, and swept schedule --plan plans beside what moves");
+                     " has no clock; swept check --time, motion --times, trajectory, schedule and "
+                     "view --time have one, and swept schedule --plan plans beside what moves");
 }
 
 void refuseClock(const Arguments& args, const World& world) {
@@ -65,13 +65,16 @@ void refuseClock(const Arguments& args, const World& world) {
 void addTimes(const Arguments& args, Task& task) {
   const World& world = task.checker->world();
   const bool check = args.command == &kCheckCommand;
-  if (world.obstacles().empty() || !(check || args.command == &kMotionCommand)) return;
-  if (check && !args.clock.time)
-    throw UsageError(movesText(world) + ": --time S says when the states are checked");
-  if (!check && args.clock.times.empty())
+  const bool motion = args.command == &kMotionCommand;
+  const bool view = args.command->name == "view";  // not a command of every program
+  if (world.obstacles().empty() || !(check || motion || view)) return;
+  if (!motion && !args.clock.time)
+    throw UsageError(movesText(world) + ": --time S says when the states are " +
+                     (check ? "checked" : "shown"));
+  if (motion && args.clock.times.empty())
     throw UsageError(movesText(world) + ": --times T,T,... says when the robot is at each state");
   const std::vector<double> times =
-      check ? std::vector<double>(task.states.size(), *args.clock.time) : timesOf(args, task);
+      motion ? timesOf(args, task) : std::vector<double>(task.states.size(), *args.clock.time);
   for (std::size_t i = 0; i < times.size(); ++i) {
     LabelledState& state = task.states[i];
     state.time = times[i];

@@ -16,9 +16,9 @@ void requireClock(const Arguments& args, const World& world);
 /// Throws UsageError for an option of the clock where nothing moves.
 void refuseClock(const Arguments& args, const World& world);
 
-/// Gives the states of `check` and `motion` their times, as the last of their values, where an
-/// object of the task's world moves. Throws UsageError where there are no times, another number of
-/// them than of states, or a motion would not take time.
+/// Gives the states of `check`, `motion` and `view` their times, as the last of their values, where
+/// an object of the task's world moves. Throws UsageError where there are no times, another number
+/// of them than of states, or a motion would not take time.
 void addTimes(const Arguments& args, Task& task);
 
 }  // namespace swept

@@ -32,14 +32,20 @@ PageContent::State defaultState(const Robot& robot, const Group& group) {
   return state;
 }
 
-/// Beside objects that move: at the time at which the first of them begins to.
-PageContent::State whenItBegins(const World& world, PageContent::State state) {
-  if (world.obstacles().empty()) return state;
+/// s, at which the first of what moves begins to.
+double firstTime(const World& world) {
   double begin = std::numeric_limits<double>::infinity();
   for (const MovingObstacle& body : world.obstacles())
     begin = std::min(begin, body.waypoints.front().time);
-  state.q.push_back(begin);
-  state.label += " at " + shortNumber(begin) + " s";
+  return begin;
+}
+
+/// Beside objects that move: at the time that is asked for, or when they begin to.
+PageContent::State onClock(const Arguments& args, const World& world, PageContent::State state) {
+  if (world.obstacles().empty()) return state;
+  const double time = args.clock.time ? *args.clock.time : firstTime(world);
+  state.q.push_back(time);
+  state.label += " at " + shortNumber(time) + " s";
   return state;
 }
 
@@ -167,7 +173,7 @@ void writeInfoPage(const Arguments& args, const Model& model, const Checker* che
   const Robot& robot = *model.robot;
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
   const World& world = checker == nullptr ? *model.world : checker->world();
-  const PageContent::State state = whenItBegins(world, defaultState(robot, group));
+  const PageContent::State state = onClock(args, world, defaultState(robot, group));
   PageContent content;
   if (checker != nullptr) content = statesContent(*checker, {state});
   content.tone = PageContent::Tone::Plain;

@@ -58,7 +58,8 @@ void refuseRules(const Arguments& args, const std::string& why) {
       {"--margin-self", args.selfMargin.has_value()},
       {"--margin-world", args.worldMargin.has_value()},
       {"--tolerance", args.tolerance != none.tolerance},
-      {"--problems", !args.problems.empty()}};
+      {"--problems", !args.problems.empty()},
+      {"--time", args.clock.time.has_value()}};
   for (const auto& [name, isGiven] : given)
     if (isGiven) throw UsageError(name + why);
 }

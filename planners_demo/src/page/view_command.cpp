@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/options.hpp"
+#include "input/clock.hpp"
 #include "page/view.hpp"
 
 namespace swept {
@@ -17,6 +18,11 @@ void addViewOptions(CLI::App& app, Arguments& args) {
                  "states to show, or paths (.json of swept plan -o) of one robot in one world; "
                  "without: the default state")
       ->type_name("STATE|PATH.json");
+  app.add_option("--time", args.clock.time,
+                 "s; when the states are shown, on the clock of the objects of --scene that move "
+                 "(without states: by default when the first of them begins to)")
+      ->type_name("S")
+      ->check(within(-kMostTime, kMostTime, "between -1e6 and 1e6 s"));
   addProblemOptions(app, args, "shows start and goals in its world");
   app.add_option("-o,--output", args.page.file,
                  "where the page goes; without: a temporary file, opened with xdg-open")
@@ -35,6 +41,7 @@ const Command kViewCommand{
     .exitCodes = kVerdictExitCodes,
     .addOptions = addViewOptions,
     .run = runView,
-    .notes = stateNotes};
+    .notes = stateNotes,
+    .hasClock = true};
 
 }  // namespace swept

@@ -140,19 +140,22 @@ class ScheduleRun {
     return start;
   }
 
-  /// s. What is planned leaves room for all delays that are asked about.
-  double longestDelay() const {
-    double longest = 0.0;
-    for (const auto& [part, delay] : late_) longest = std::max(longest, delay);
-    return longest;
+  static double largestOf(const std::map<std::size_t, double>& numbers) {
+    double largest = 0.0;
+    for (const auto& [part, number] : numbers) largest = std::max(largest, number);
+    return largest;
   }
 
-  /// Whether there is a schedule of the groups that have none yet.
+  /// Whether there is a schedule of the groups that have none yet. It leaves room for all delays
+  /// and slowdowns that are asked about.
   bool plan() {
     Progress progress("planning", args_.quiet);
     try {
       plan_ = planSchedule(*checker_, tasks_, curves_, {},
-                           {.seconds = args_.time, .delay = longestDelay(), .seed = args_.seed});
+                           {.seconds = args_.time,
+                            .delay = largestOf(late_),
+                            .slowest = 1.0 + largestOf(slow_) / 100.0,
+                            .seed = args_.seed});
     } catch (const std::invalid_argument& error) {
       throw UsageError(std::string("--plan: ") + error.what());
     }

@@ -66,8 +66,65 @@ constexpr double kLongest = 600.0;     // s, beyond the end of all others
 /// divided.
 constexpr double kWidest = 0.2;
 constexpr double kNarrowest = 0.02;
-/// Of the whole delay: no shorter range is asked about, however wide its tube is.
+/// Of the longest delay: no shorter range is asked about, however wide its tube is.
 constexpr double kLeastShare = 1.0 / 1024.0;
+
+void requireLateness(double delay, double slowest, const std::vector<ScheduledCurve>& others) {
+  requireOwn(std::isfinite(delay) && delay >= 0.0, "the delay is " + detail::formatNumber(delay) +
+                                                       " s; allowed are finite numbers from 0 on");
+  requireOwn(std::isfinite(slowest) && slowest >= 1.0,
+             "the slowest factor is " + detail::formatNumber(slowest) +
+                 "; allowed are finite numbers from 1 on");
+  for (std::size_t i = 0; slowest > 1.0 && i < others.size(); ++i)
+    requireOwn(others[i].curve.begin() >= 0.0,
+               "curve " + std::to_string(i + 1) + " of others begins at " +
+                   detail::formatNumber(others[i].curve.begin()) +
+                   " s of its own time; with a slowdown, allowed are 0 and later");
+}
+
+/// How much later one curve may be at what it does on time.
+struct Lateness {
+  double delay = 0.0;    ///< s
+  double slowest = 1.0;  ///< factor
+  ///@{
+  /// s. The others have all of their starts between the two: a slowdown counts from there on.
+  double firstStart = 0.0, lastStart = 0.0;
+  ///@}
+
+  /// s, of the own curve, where it is at `time` (s) of its own.
+  double ofOwn(double time) const { return delay + (slowest - 1.0) * time; }
+  /// s, of others, when the clock shows `time` (s): they do what they did that much earlier. What
+  /// starts at s and is late by d does at s + d + f (t - s) what it did at t. So t is no less than
+  /// s + (time - s - d) / f where that has begun.
+  double ofOthers(double time) const {
+    return std::max(delay, delay / slowest + (1.0 - 1.0 / slowest) * (time - firstStart));
+  }
+  /// s. When the last of others ends whose end is at `time` (s).
+  double lastOf(double time) const { return delay + firstStart + slowest * (time - firstStart); }
+  /// s, of the own curve. Before this, no other can be late by `late` (s), give or take `half`;
+  /// early, where it is negative.
+  double firstWith(double late, double half) const { return firstWith(late, half, firstStart); }
+  /// s. From here on, all others can be late, or early, by `late`.
+  double surelyWith(double late) const { return firstWith(late, 0.0, lastStart); }
+
+ private:
+  double firstWith(double late, double half, double start) const {
+    const double least = (std::abs(late) - half) / detail::kArithmeticOutward;
+    if (least <= delay * detail::kArithmeticOutward) return 0.0;
+    const double own = (least - delay * detail::kArithmeticOutward) / (slowest - 1.0);
+    return (late < 0.0 ? own : own * slowest + delay + start) / detail::kArithmeticOutward;
+  }
+};
+
+/// Of these curves.
+Lateness latenessOf(double delay, double slowest, const std::vector<ScheduledCurve>& others) {
+  Lateness lateness{.delay = delay, .slowest = slowest};
+  if (others.empty()) return lateness;
+  const auto [first, last] = std::ranges::minmax(others, {}, &ScheduledCurve::start);
+  lateness.firstStart = first.start;
+  lateness.lastStart = last.start;
+  return lateness;
+}
 
 }  // namespace
 
@@ -91,11 +148,12 @@ struct ScheduleChecker::Data {
   };
 
   Data(const Checker& whole, std::vector<std::string> ownNames, std::vector<ScheduledCurve> curves,
-       ConfigurationView still, const std::vector<std::string>& ignored, double delayed)
+       ConfigurationView still, const std::vector<std::string>& ignored, double slowest,
+       double delay)
       : variables(std::move(ownNames)),
         places(placesIn(whole, variables)),
         others(std::move(curves)),
-        delay(delayed),
+        lateness(latenessOf(delay, slowest, others)),
         pairs(detail::pairsMovedBy(whole, variables, ignored)),
         rest(Eigen::VectorXd::Zero(std::ssize(whole.group().variables))) {
     for (std::size_t v = 0; v < still.size(); ++v) rest[static_cast<Eigen::Index>(v)] = still[v];
@@ -104,7 +162,7 @@ struct ScheduleChecker::Data {
       moves.first = std::min(moves.first, curve.start + curve.slowdown * curve.curve.begin());
       moves.last = std::max(moves.last, curve.start + curve.slowdown * curve.curve.end());
     }
-    end = moves.last + delay;
+    end = lateness.lastOf(moves.last);
     movesWithObstacles = moves;
     for (const MovingObstacle& obstacle : whole.world().obstacles()) {
       const double begins = obstacle.waypoints.front().time, ends = obstacle.waypoints.back().time;
@@ -114,13 +172,18 @@ struct ScheduleChecker::Data {
     }
     end = std::max(end, movesWithObstacles.last);
     tubes.push_back({0.0, pairs.withTracking(detail::widened(pairs, offBy(0.0)))});
-    if (delay > 0.0) addTubes();
+    if (longest() > 0.0) addTubes();
   }
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
   ~Data() = default;
 
   double latest() const { return end + kLongest; }
+
+  /// s. No curve is later while something else moves.
+  double longest() const {
+    return lateness.ofOwn(std::max({0.0, moves.last, movesWithObstacles.last}));
+  }
 
   /// rad or m. By how much each value may be off, where others are early or late by up to `half`
   /// (s), with all roundings (L19).
@@ -135,7 +198,8 @@ struct ScheduleChecker::Data {
       std::vector<double> own(rates.size());
       for (std::size_t v = 0; v < own.size(); ++v) {
         const double rate = rates[v] / others[i].slowdown;
-        own[v] = (detail::combinedRounding(values[v], rate, latest()) + half * rate) *
+        own[v] = (detail::combinedRounding(values[v], rate, latest()) +
+                  (half > 0.0 ? roundedOutward(half) : 0.0) * rate) *
                  detail::kArithmeticOutward;
       }
       detail::dropResting(others[i].curve, own);
@@ -152,11 +216,11 @@ struct ScheduleChecker::Data {
 
   void addTubes() {
     const bool isBesideObstacles = !pairs.world().obstacles().empty();
-    for (double half = isBesideObstacles ? 0.5 * delay : delay;; half *= 0.5) {
+    for (double half = isBesideObstacles ? 0.5 * longest() : longest();; half *= 0.5) {
       const std::vector<double> off = offBy(half);
       const double widest =
           std::max(std::ranges::max(off), detail::largestObstacleRoom(pairs, roundedOutward(half)));
-      const bool isLast = widest <= kNarrowest || half <= kLeastShare * delay;
+      const bool isLast = widest <= kNarrowest || half <= kLeastShare * longest();
       if (isLast || widest <= kWidest) {
         tubes.push_back({half, detail::inTube(pairs, off)});
         if (isBesideObstacles)
@@ -194,7 +258,8 @@ struct ScheduleChecker::Data {
     // While nothing else moves, a delay changes nothing.
     const double half = tubes[tube].half;
     const Moves& all = shift.withObstacles ? movesWithObstacles : moves;
-    const double begin = std::max(own.begin(), all.first + shift.late - roundedOutward(half));
+    const double begin = std::max({own.begin(), all.first + shift.late - roundedOutward(half),
+                                   lateness.firstWith(shift.late, roundedOutward(half))});
     const double until = std::min(own.end(), all.last + shift.late + roundedOutward(half));
     if (!(begin < until)) return std::nullopt;
     const Checker& checker =
@@ -202,11 +267,18 @@ struct ScheduleChecker::Data {
     TrajectoryCertificate found = certify(own, begin, until, shift, checker, workspace, query);
     if (found.verdict == Verdict::Free) return std::nullopt;
     if (tube + 1 == tubes.size()) {
-      if (!shift.withObstacles || !found.contact) return found;
+      if (!found.contact) return found;
+      // A slowdown reaches the range before it reaches its middle, whose contacts are found.
+      const auto counts = [&](const TrajectoryCertificate& certificate) {
+        return certificate.contact && lateness.surelyWith(shift.late) <= certificate.contact->time;
+      };
+      if (!shift.withObstacles && counts(found)) return found;
       // Where obstacles have room, a contact may be none: it counts if there is one without.
-      TrajectoryCertificate withoutRoom =
-          certify(own, begin, until, shift, tubes.front().checker, workspace, query);
-      if (withoutRoom.contact) return withoutRoom;
+      if (shift.withObstacles) {
+        TrajectoryCertificate withoutRoom =
+            certify(own, begin, until, shift, tubes.front().checker, workspace, query);
+        if (counts(withoutRoom)) return withoutRoom;
+      }
       TrajectoryCertificate open;
       open.freeUntil = found.freeUntil;
       open.undecided = static_cast<const TrajectoryPlace&>(*found.contact);
@@ -222,9 +294,12 @@ struct ScheduleChecker::Data {
   std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, double from,
                                                double to, bool withObstacles, Workspace& workspace,
                                                MotionQuery query) const {
-    const double half = tubes[1].half;
-    for (double late = from + half; late < to; late += 2.0 * half)
+    const double ranges = std::ceil((to - from) / (2.0 * tubes[1].half));
+    const double half = 0.5 * (to - from) / ranges;
+    for (double i = 0.0; i < ranges; ++i) {
+      const double late = from + (2.0 * i + 1.0) * half;
       if (auto found = notFree(own, {late, withObstacles}, 1, workspace, query)) return found;
+    }
     return std::nullopt;
   }
 
@@ -232,15 +307,19 @@ struct ScheduleChecker::Data {
   /// is late, as all others are, and on time where others are late.
   std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, Workspace& workspace,
                                                MotionQuery query) const {
-    if (!tubes[1].besideObstacles) return notFree(own, -delay, delay, false, workspace, query);
-    if (auto found = notFree(own, -delay, 0.0, true, workspace, query)) return found;
-    return notFree(own, 0.0, delay, false, workspace, query);
+    const bool isBesideObstacles = tubes[1].besideObstacles.has_value();
+    const double last = isBesideObstacles ? movesWithObstacles.last : moves.last;
+    const double early = lateness.ofOwn(std::max(0.0, std::min(own.end(), last)));
+    const double late = lateness.ofOthers(std::min(own.end(), lateness.lastOf(moves.last)));
+    if (!isBesideObstacles) return notFree(own, -early, late, false, workspace, query);
+    if (auto found = notFree(own, -early, 0.0, true, workspace, query)) return found;
+    return notFree(own, 0.0, late, false, workspace, query);
   }
 
   const std::vector<std::string> variables;
   const std::vector<Eigen::Index> places;
   const std::vector<ScheduledCurve> others;
-  const double delay;    ///< s
+  const Lateness lateness;
   const Checker pairs;   ///< those that are asked about
   Eigen::VectorXd rest;  ///< a configuration of the group
   std::vector<std::vector<Eigen::Index>> placesOfOthers;
@@ -248,24 +327,24 @@ struct ScheduleChecker::Data {
   Moves movesWithObstacles;  ///< and of moving obstacles
   double end = 0.0;          ///< s
   double largestTime = 0.0;  ///< s, the largest size of an obstacle's first and last time
-  std::vector<Tube> tubes;   ///< without a delay, then each for half the delay of that before
+  std::vector<Tube> tubes;   ///< without a delay, then each for half the range of that before
 };
 
 ScheduleChecker::ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
                                  std::vector<ScheduledCurve> others, ConfigurationView still,
-                                 const std::vector<std::string>& ignored, double delay) {
+                                 const std::vector<std::string>& ignored, double delay,
+                                 double slowest) {
   if (detail::inForeignEnvironment()) {
     inDefaultEnvironment([&, still] {
-      *this =
-          ScheduleChecker(checker, std::move(variables), std::move(others), still, ignored, delay);
+      *this = ScheduleChecker(checker, std::move(variables), std::move(others), still, ignored,
+                              delay, slowest);
     });
     return;
   }
   requireNames(checker, variables, others, still, ignored);
-  requireOwn(std::isfinite(delay) && delay >= 0.0, "the delay is " + detail::formatNumber(delay) +
-                                                       " s; allowed are finite numbers from 0 on");
+  requireLateness(delay, slowest, others);
   data_ = std::make_shared<const Data>(checker, std::move(variables), std::move(others), still,
-                                       ignored, delay);
+                                       ignored, slowest, delay);
 }
 
 TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, Workspace& workspace,
@@ -285,7 +364,7 @@ TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, W
   }
   TrajectoryCertificate found = data_->certify(own, own.begin(), own.end(), {},
                                                data_->tubes.front().checker, workspace, query);
-  if (data_->delay == 0.0 || found.verdict != Verdict::Free) return found;
+  if (data_->tubes.size() == 1 || found.verdict != Verdict::Free) return found;
   if (auto late = data_->notFree(own, workspace, query)) return *std::move(late);
   return found;
 }

@@ -240,6 +240,88 @@ TEST_F(Task, ThatDoesNotJoinIsNotWritten) {
   }
 }
 
+/// The same beside a cart, which comes to the way of the box once that has passed.
+class TaskBesideACart : public Task {
+ protected:
+  static MovingObstacle cart(double from = 3.0) {
+    return {.name = "cart",
+            .parts = {{makeSphere(0.1), Isometry3d::Identity()}},
+            .waypoints = {{0.0, at(-1.0, from, 0.5)}, {6.0, at(-1.0, 0.0, 0.5)}}};
+  }
+  /// `cartOf`: of each phase, counted from 0.
+  std::vector<TaskPhase> besideCart(const std::function<MovingObstacle(int)>& cartOf) const {
+    std::vector<TaskPhase> all = phases();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].checker = std::make_shared<const Checker>(
+          all[i].checker->withObstacle(cartOf(static_cast<int>(i))));
+      certify(all[i]);
+    }
+    return all;
+  }
+};
+
+TEST_F(TaskBesideACart, WhatMovesIsOnTheClockOfTheTask) {
+  const std::vector<TaskPhase> all = besideCart([](int) { return cart(); });
+  ASSERT_EQ(written(all), "");
+  const CheckedTask checked = verifyTask(file());
+  ASSERT_EQ(checked.refusal, "");
+  ASSERT_EQ(checked.phases.size(), 5U);
+  for (const CheckedPhase& phase : checked.phases) {
+    EXPECT_EQ(phase.proof.moving, std::vector<std::string>{"cart"});
+    EXPECT_EQ(phase.proof.clockBegin, phase.begin);
+    EXPECT_EQ(phase.proof.clockEnd, phase.end);
+  }
+  // Each phase by itself would begin while the cart is far away: what is proven is about its place
+  // at the times of the task. When the box passes later, it meets the cart.
+  std::vector<TaskPhase> late = all;
+  late[2].trajectory = delayed(late[2].trajectory, 3.5);
+  EXPECT_THROW(certify(late[2]), std::logic_error);
+
+  EXPECT_EQ(forged([](Json& task) { task["phases"][2]["path"]["clock"] = -2.0; }),
+            "phase 3 (carry): the clock of what moves shows -2.0 s at the task's time 0");
+  EXPECT_EQ(forged([](Json& task) { task["phases"][2]["path"]["clock"] = "noon"; }),
+            "phase 3 (carry): the clock of what moves shows \"noon\" s at the task's time 0");
+  EXPECT_NE(forged([](Json& task) { task["phases"][2]["path"].erase("clock"); }), "");
+}
+
+TEST_F(TaskBesideACart, ItsCourseIsTheSameUnlessItIsSensed) {
+  const auto fromThenOn = [&](std::size_t phase, double from, std::vector<TaskChange> changes) {
+    std::vector<TaskPhase> all =
+        besideCart([&](int i) { return cart(static_cast<std::size_t>(i) < phase ? 3.0 : from); });
+    all[phase].changes.insert(all[phase].changes.end(), changes.begin(), changes.end());
+    return written(all);
+  };
+  EXPECT_EQ(fromThenOn(2, 3.5, {}),
+            "phase 3 (carry), body cart: it moves by itself, and not as it did in phase 2");
+  EXPECT_EQ(fromThenOn(2, 3.5, {{Kind::Placed, "cart"}}),
+            "phase 3 (carry), body cart: it moves by itself, and not as it did in phase 2");
+  EXPECT_EQ(fromThenOn(2, 3.0, {{Kind::Attached, "cart"}}),
+            "phase 3 (carry), body cart: it is said to be attached, and is as it was");
+  EXPECT_EQ(fromThenOn(2, 3.5, {{Kind::Sensed, "cart"}}), "");
+  EXPECT_EQ(verifyTask(file()).phases.at(2).changes, std::vector<std::string>{"cart sensed"});
+
+  // It stands, or is not there, from a phase on.
+  const auto afterwards = [&](const std::function<Checker(const Checker&)>& change) {
+    std::vector<TaskPhase> all = besideCart([](int) { return cart(); });
+    const std::vector<TaskPhase> without = phases();
+    for (std::size_t i = 3; i < all.size(); ++i) {
+      all[i].checker = std::make_shared<const Checker>(change(*without[i].checker));
+      certify(all[i]);
+    }
+    const std::string refused = written(all);
+    all[3].changes.push_back({Kind::Sensed, "cart"});
+    EXPECT_EQ(written(all), "");
+    return refused;
+  };
+  EXPECT_EQ(afterwards([](const Checker& other) {
+              return other.withBody("cart", makeSphere(0.1), at(-1.0, 3.0, 0.5));
+            }),
+            "phase 4 (lower), body cart: it does not move by itself any more, as it did in phase "
+            "3");
+  EXPECT_EQ(afterwards([](const Checker& other) { return other; }),
+            "phase 4 (lower), body cart: it is not there, and was in phase 3");
+}
+
 TEST_F(Task, OfTwoRobotsIsNotWritten) {
   const auto urdf = [](const std::string& upper, const std::string& size, const std::string& name) {
     const auto slide = [](const std::string& joint, const std::string& parent,

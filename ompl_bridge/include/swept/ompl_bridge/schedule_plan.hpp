@@ -37,6 +37,8 @@ struct SchedulePlanOptions {
   /// s. Each curve, known or planned, may start late by up to so much, one at a time, and still
   /// nothing touches: PlannedSchedule::delays has the proofs. Moving obstacles keep their times.
   double delay = 0.0;
+  /// 1 or more. Likewise each may take up to so many times as long, with each of the delays.
+  double slowest = 1.0;
   int improvements = 2000;    ///< changes of each robot's way that are tried
   std::uint32_t seed = 1;     ///< of all random numbers
   std::stop_token stop = {};  ///< ends the search soon once it is requested
@@ -66,8 +68,8 @@ struct PlannedSchedule {
   std::vector<std::size_t> order = {};  ///< indices of the tasks, in the order of their priority
   /// Found, NotProven: of all curves, the known ones too: certifySchedule().
   std::optional<TrajectoryCertificate> certificate = {};
-  /// Likewise, if SchedulePlanOptions::delay is above 0: certifyDelays() of each known curve, then
-  /// of those of the tasks.
+  /// Likewise, if SchedulePlanOptions::delay is above 0, or slowest above 1: certifyDelays() of
+  /// each known curve, then of those of the tasks.
   std::vector<DelayCertificate> delays = {};
 
   bool found() const { return status == Status::Found; }  ///< whether it is there and proven
@@ -82,9 +84,10 @@ struct PlannedSchedule {
 /// T. Lozano-Perez, On multiple moving objects, 1987). Those that come later stand at their starts
 /// (M. Cap et al., Prioritized planning algorithms for trajectory coordination of multiple mobile
 /// robots, 2015); where that leaves no way, they are left out, and have to make way. A robot that
-/// finds none goes first in the next attempt. Where as many orders as there are robots have failed,
-/// the first robot of each waits at its start, so that others get out of its way, and longer from
-/// round to round. So a schedule that exists may not be found.
+/// finds none goes first in the next attempt, and is not planned behind the same robots again.
+/// Where all orders that are left are such, or twice as many as there are robots have failed, the
+/// first robot of each waits at its start, so that others get out of its way, and longer from round
+/// to round. So a schedule that exists may not be found.
 ///
 /// One robot's way is searched for in configurations and time by two trees (F. Grothe et al.,
 /// ST-RRT*, 2022), whose edges are proven, then made earlier and shorter. It is what a controller
@@ -93,11 +96,11 @@ struct PlannedSchedule {
 /// proven.
 ///
 /// The same arguments give the same schedule, if it is found well before the time is up. Throws
-/// std::invalid_argument as combinedCurve() does; for no task; for an unknown group, one with
-/// variables beyond the checker's group or of another task; for another number of values or limits
-/// than variables; for values that are not finite or beyond the limits of positions; for a variable
-/// that has no limits of position and is not cyclic, and for one without limits of velocity and
-/// acceleration; and for options that are not allowed.
+/// std::invalid_argument as combinedCurve() and ScheduleChecker do; for no task; for an unknown
+/// group, one with variables beyond the checker's group or of another task; for another number of
+/// values or limits than variables; for values that are not finite or beyond the limits of
+/// positions; for a variable that has no limits of position and is not cyclic, and for one without
+/// limits of velocity and acceleration; and for options that are not allowed.
 PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
                              std::span<const ScheduledCurve> known = {},
                              ConfigurationView still = {}, const SchedulePlanOptions& options = {});

@@ -36,7 +36,8 @@ struct TaskPhase {
   std::shared_ptr<const Checker> checker;  ///< robot, group, world and attached bodies
   /// On the clock of the task: its first time is the last one of the phase before. See delayed().
   JointTrajectory trajectory;
-  /// Of controllerCurve() of it, with clearances (TrajectoryQuery::clearances).
+  /// Of controllerCurve() of it, with clearances (TrajectoryQuery::clearances). Moving obstacles
+  /// are on the clock of the task, too, so TrajectoryQuery::clock is 0.
   TrajectoryCertificate certificate;
   std::vector<TaskChange> changes = {};    ///< since the phase before; none of the first one
   std::vector<std::string> warnings = {};  ///< see writeProof()
