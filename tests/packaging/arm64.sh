@@ -10,29 +10,43 @@ architecture=arm64
 triple=aarch64-linux-gnu
 
 usage() {
-  echo "usage: tests/packaging/arm64.sh FOLDER [--tests REGEX] [--target NAME ...]"
+  echo "usage: tests/packaging/arm64.sh FOLDER [--tests REGEX] [--each SECONDS] [--target NAME ...]"
   echo "FOLDER is made, or goes on with what an earlier run left in it; it takes 3 GB. The build is FOLDER/build."
   echo "--tests: only the tests that match are built and run. Without it, all are."
+  echo "--each: one test after the other is built, and run for SECONDS at most; all run, whatever fails. FOLDER/results"
+  echo "  keeps what each one wrote and what came of it. A later run leaves out what passed, unless its program changed."
   echo "--target: only this target is built, and no test runs unless --tests is given too."
+  echo "CMAKE_BUILD_PARALLEL_LEVEL says how many compilers run at once. ccache is used where it is installed."
   echo "Packages come from \$DEBIAN_MIRROR, or from http://deb.debian.org/debian."
 }
 
 tests=
+each=
 folder=
 targets=()
 while (($# > 0)); do
   case "$1" in
-    --tests | --target)
+    --tests | --each | --target)
       if (($# < 2)); then
         echo "error: $1 needs a value" >&2
         exit 3
       fi
-      if [[ "$1" == --tests ]]; then tests="$2"; else targets+=("$2"); fi
+      case "$1" in
+        --tests) tests="$2" ;;
+        --each)
+          each="$2"
+          if [[ ! "$each" =~ ^[1-9][0-9]*$ ]]; then
+            echo "error: --each is '$each'; it takes seconds, a whole number from 1" >&2
+            exit 3
+          fi
+          ;;
+        --target) targets+=("$2") ;;
+      esac
       shift 2
       ;;
     -h | --help) usage && exit 0 ;;
     -*)
-      echo "error: no option '$1'; there are: --tests --target --help" >&2
+      echo "error: no option '$1'; there are: --tests --each --target --help" >&2
       exit 3
       ;;
     *)
@@ -153,9 +167,35 @@ emulating() {
   "${own[@]}" "$register"' && shift && exec "$@"' _ "$handler" "$@"
 }
 
+# Lines `passed failed skipped` of the cases that GoogleTest says are done in a test's output.
+count_cases() {
+  awk '/^[0-9]+: \[       OK \] / { passed++ }
+    /^[0-9]+: \[  FAILED  \] .* ms\)$/ { failed++ }
+    /^[0-9]+: \[  SKIPPED \] .* ms\)$/ { skipped++ }
+    END { print passed + 0, failed + 0, skipped + 0 }' "$1"
+}
+
+# run_one NAME FILE: NAME.txt has what the test wrote, and NAME.result its outcome and how many cases passed, failed and
+# were skipped. Programs are linked statically, so one that did not change is older than what came of it.
+run_one() {
+  local result="$folder/results/$1.result" log="$folder/results/$1.txt" outcome=passed
+  if ! build_targets "$2" >"$log" 2>&1; then
+    outcome="does not compile"
+  elif [[ "$result" -nt "$folder/build/$2" ]] && grep -q '^passed ' "$result"; then
+    return
+  elif ! emulating ctest --test-dir "$folder/build" --verbose --timeout "$each" --tests-regex "^$1\$" >"$log" 2>&1; then
+    outcome=failed
+    if grep -q '\*\*\*Timeout' "$log"; then outcome=stopped; fi
+  fi
+  echo "$outcome $(count_cases "$log")" >"$result"
+  echo "$1: $(cat "$result")"
+}
+
+build_targets() { cmake --build "$folder/build" --target "$@"; }
+
 unpack_libraries
 configure
-if ((${#targets[@]} > 0)); then ninja -C "$folder/build" "${targets[@]}"; fi
+if ((${#targets[@]} > 0)); then build_targets "${targets[@]}"; fi
 if ((${#targets[@]} > 0)) && [[ -z "$tests" ]]; then exit 0; fi
 list_tests >"$folder/tests.txt"
 mapfile -t programs < <(awk '$1 == "emulated" { print $3 }' "$folder/tests.txt" | sort -u)
@@ -164,7 +204,17 @@ if ((${#programs[@]} == 0)); then
   echo "error: no test that the emulator can run matches '$tests'" >&2
   exit 3
 fi
-ninja -C "$folder/build" "${programs[@]}"
 if [[ -n "$others" ]]; then echo "left out, as scripts on this system: ${others//|/ }"; fi
+if [[ -n "$each" ]]; then
+  mkdir -p "$folder/results"
+  bad=0
+  while read -r name file; do
+    run_one "$name" "$file" </dev/null
+    if ! grep -q '^passed ' "$folder/results/$name.result"; then bad=$((bad + 1)); fi
+  done < <(awk '$1 == "emulated" { print $2, $3 }' "$folder/tests.txt")
+  echo "tests that did not pass: $bad; $folder/results has what each one wrote"
+  exit $((bad > 0))
+fi
+build_targets "${programs[@]}"
 emulating ctest --test-dir "$folder/build" --parallel "$(nproc)" --timeout 3600 --output-on-failure --no-tests=error \
   --tests-regex "${tests:-.}" --exclude-regex "^(${others:-none})\$"

@@ -277,8 +277,13 @@ case_bare_options() {
 case_arm_options() {
   local arm="$here/arm64.sh" same="$here/same_answers.sh" none="$temporary/none"
   refuses 'usage: tests/packaging/arm64.sh FOLDER' "$arm"
-  refuses "error: no option '--test'; there are: --tests --target --help" "$arm" "$none" --test core
+  refuses "error: no option '--test'; there are: --tests --each --target --help" "$arm" "$none" --test core
   refuses 'error: --tests needs a value' "$arm" "$none" --tests
+  refuses 'error: --each needs a value' "$arm" "$none" --each
+  local seconds
+  for seconds in 0 -1 5s ''; do
+    refuses "error: --each is '$seconds'; it takes seconds, a whole number from 1" "$arm" "$none" --each "$seconds"
+  done
   refuses "error: a second folder, '/tmp'; one is taken" "$arm" "$none" /tmp
   mkdir "$temporary/programs"
   ln -s "$(command -v bash)" "$(command -v dirname)" "$temporary/programs"
