@@ -87,8 +87,8 @@ double peakByRamps(double from, double to, double length, const StraightLimits& 
   double x = std::min(fastest, std::cbrt(0.5 * scaled));
   const double speeds = 3.0 * most + least;
   if (speeds * x > scaled) x = scaled / speeds;
-  // The way is as long as it may be at a larger first x, so that the excess is clear where the
-  // limit of speed is above that.
+  // At a first x that is not given by the limit of speed, both ways are at least as long as the
+  // length. Well above it they are longer by more than they round: no such limit has to be tried.
   constexpr double kClear = 0.99;
   if (x >= kClear * fastest && !(excess(fastest).length > 0.0)) return limits.speed;
   for (int i = 0; i < kSteps; ++i) {
