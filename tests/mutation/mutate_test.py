@@ -13,6 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(few_lines CXX)
 enable_testing()
+add_compile_options(-Wall -Wextra -Werror)
 add_library(numbers numbers.cpp)
 foreach(test one two steps)
   add_executable(${test} ${test}.cpp)
@@ -30,7 +31,7 @@ SOURCES = {
 }
 # Name, function, what it becomes, tests to ask first; outcome and who found it, with those alone and with all.
 MUTATIONS = [
-    ("named", "int one() { return 1; }", "int one() { return 7; }", "one", ("caught", "one"), ("caught", "one")),
+    ("named", "int one() { return 1; }", "int one() { const double left = 1.0; return 7; }", "one", ("caught", "one"), ("caught", "one")),
     ("crash", "int one() { return 1; }", "int one() { __builtin_trap(); }", "one", ("caught", "one"), ("caught", "one")),
     ("elsewhere", "int two() { return 2; }", "int two() { return 7; }", "one", None, ("caught", "two")),
     ("endless", "int step() { return 1; }", "int step() { return 0; }", "steps",

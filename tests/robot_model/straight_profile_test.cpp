@@ -83,6 +83,29 @@ TEST(StraightProfile, ReachesWhatALengthAllows) {
   EXPECT_LT(limited, 800);
 }
 
+/// What is said without a search is what the search finds, to the last digit.
+TEST(StraightProfile, WhatHasRoomIsReachable) {
+  Random random;
+  int roomy = 0, reachable = 0, all = 0;
+  for (int round = 0; round < 200000; ++round) {
+    const StraightLimits limits = random.limits(round % 2 == 0);
+    const double speed = round % 5 == 0 ? 0.0 : random.uniform(0.0, limits.speed);
+    const double wanted =
+        round % 3 == 0 ? random.uniform(0.0, 1.1 * limits.speed) : speed * random.size(0.999, 1.1);
+    const double length = random.size(1e-9, 10.0);
+    const double leastStep = random.size(1e-9, 1e-2);
+    const bool isReachable = wanted <= reachableInSteps(speed, length, limits, leastStep);
+    const bool hasRoom = reachableWithRoom(speed, wanted, length, limits, leastStep);
+    EXPECT_LE(hasRoom, isReachable);
+    ++all;
+    reachable += isReachable ? 1 : 0;
+    roomy += hasRoom ? 1 : 0;
+  }
+  EXPECT_LT(reachable, 0.8 * all);
+  EXPECT_GT(roomy, 0.3 * all);
+  EXPECT_GT(roomy, 0.6 * reachable);
+}
+
 /// The time over a length with some peak, or infinity if that needs a larger length.
 double timeWith(double peak, double from, double to, double length, const StraightLimits& limits) {
   const double first = changeTime(std::abs(peak - from), limits);

@@ -23,7 +23,8 @@ CornerSpeeds::CornerSpeeds(const WayPointPath& path, double leastStep)
       blends_(path.parts() + 1),
       caps_(path.parts() + 1),
       rates_(path.parts() + 1),
-      trial_(path.parts() + 1) {
+      trial_(path.parts() + 1),
+      known_(path.parts()) {
   for (std::size_t corner = 1; corner < path.parts(); ++corner) shapes_.emplace_back(path, corner);
 }
 
@@ -43,33 +44,48 @@ void CornerSpeeds::solve() {
 
 /// False if the rates of the corners beside do not allow any.
 bool CornerSpeeds::solve(std::size_t first, std::size_t last, std::vector<double>& rates) const {
-  const auto reachable = [&](std::size_t part, double speed) {
-    return reachableInSteps(speed, straightLength(part), path_->straight[part], leastStep_);
+  // The speed at one end of a part, if the other end's allows it, or else the largest that does.
+  const auto allowed = [&](std::size_t part, double wanted, double other) {
+    const double length = straightLength(part);
+    const StraightLimits& limits = path_->straight[part];
+    if (reachableWithRoom(other, wanted, length, limits, leastStep_)) return wanted;
+    return std::min(wanted, reachableInSteps(other, length, limits, leastStep_));
   };
   for (std::size_t i = last; i >= first; --i) {
     rates[i] = caps_[i];
-    const double most = reachable(i, speedIn(i, rates));
-    if (speedOut(i, rates) > most) rates[i] = most / (2.0 * blends_[i].after);
+    const double out = speedOut(i, rates);
+    const double most = allowed(i, out, speedIn(i, rates));
+    if (out > most) rates[i] = most / (2.0 * blends_[i].after);
   }
-  if (speedOut(first - 1, rates) > reachable(first - 1, speedIn(first - 1, rates)) * kRounded)
-    return false;
+  const double out = speedOut(first - 1, rates);
+  if (out > allowed(first - 1, out, speedIn(first - 1, rates)) * kRounded) return false;
   for (std::size_t i = first; i <= last; ++i) {
-    const double most = reachable(i - 1, speedOut(i - 1, rates));
-    if (speedIn(i - 1, rates) > most) rates[i] = most / (2.0 * blends_[i].before);
+    const double in = speedIn(i - 1, rates);
+    const double most = allowed(i - 1, in, speedOut(i - 1, rates));
+    if (in > most) rates[i] = most / (2.0 * blends_[i].before);
   }
-  return speedIn(last, rates) <= reachable(last, speedOut(last, rates)) * kRounded;
+  const double in = speedIn(last, rates);
+  return in <= allowed(last, in, speedOut(last, rates)) * kRounded;
 }
 
 double CornerSpeeds::duration(std::size_t first, std::size_t last, const std::vector<double>& rates,
-                              double most) const {
+                              double most) {
   double sum = 0.0;
   for (std::size_t i = first; i <= last; ++i)
     if (rates[i] > 0.0) sum += 1.0 / rates[i];
   for (std::size_t part = first - 1; part <= last && sum < most; ++part)
-    sum += fastestProfile(speedOut(part, rates), speedIn(part, rates), straightLength(part),
-                          path_->straight[part])
-               .duration();
+    sum += partDuration(part, rates);
   return sum;
+}
+
+double CornerSpeeds::partDuration(std::size_t part, const std::vector<double>& rates) {
+  const double from = speedOut(part, rates);
+  const double to = speedIn(part, rates);
+  const double length = straightLength(part);
+  KnownDuration& known = known_[part];
+  if (from != known.from || to != known.to || length != known.length)
+    known = {from, to, length, fastestProfile(from, to, length, path_->straight[part]).duration()};
+  return known.seconds;
 }
 
 bool CornerSpeeds::improve(std::size_t corner, const CornerBlend& blend, double& most) {

@@ -38,7 +38,7 @@ class CornerSpeeds {
   }
   /// s, from the begin of the blend at `first` to the end of that at `last`, and of the straight
   /// parts beside them.
-  double duration(std::size_t first, std::size_t last) const {
+  double duration(std::size_t first, std::size_t last) {
     return duration(first, last, rates_, std::numeric_limits<double>::infinity());
   }
 
@@ -62,7 +62,15 @@ class CornerSpeeds {
   bool solve(std::size_t first, std::size_t last, std::vector<double>& rates) const;
   /// `most` (s): a duration that is no less need not be the whole.
   double duration(std::size_t first, std::size_t last, const std::vector<double>& rates,
-                  double most) const;
+                  double most);
+  double partDuration(std::size_t part, const std::vector<double>& rates);
+
+  /// The fastest way along a straight part that was asked for last.
+  struct KnownDuration {
+    double from = -1.0, to = -1.0;  ///< rad/s or m/s
+    double length = 0.0;            ///< rad or m
+    double seconds = 0.0;
+  };
 
   const WayPointPath* path_;
   double leastStep_;
@@ -71,6 +79,7 @@ class CornerSpeeds {
   std::vector<double> caps_;
   std::vector<double> rates_;
   std::vector<double> trial_;
+  std::vector<KnownDuration> known_;  ///< of each straight part
 };
 
 /// The neighbourhood of a corner: the first and the last inner corner beside it, or itself.

@@ -75,20 +75,24 @@ double peakByRamps(double from, double to, double length, const StraightLimits& 
   constexpr int kSteps = 60;
   const double most = std::max(from, to);
   const double scaled = length * std::sqrt(limits.jerk);
-  double x = std::sqrt(std::max(0.0, limits.speed - most));
-  const auto excess = [&] {
+  const double least = std::min(from, to);
+  const auto excess = [&](double x) {
     const double peak = most + x * x;
     const RampWay up(from, peak, x, limits);
     const RampWay down(to, peak, x, limits);
     return RampWay{up.length + down.length - length, up.slope + down.slope};
   };
-  if (changeLength(from, most, limits) + changeLength(to, most, limits) >= length) return most;
-  if (!(excess().length > 0.0)) return limits.speed;
-  x = std::min(x, std::cbrt(0.5 * scaled));
-  const double speeds = 3.0 * most + std::min(from, to);
+  if (changeLength(least, most, limits) >= length) return most;
+  const double fastest = std::sqrt(std::max(0.0, limits.speed - most));
+  double x = std::min(fastest, std::cbrt(0.5 * scaled));
+  const double speeds = 3.0 * most + least;
   if (speeds * x > scaled) x = scaled / speeds;
+  // At a first x that is not given by the limit of speed, both ways are at least as long as the
+  // length. Well above it they are longer by more than they round: no such limit has to be tried.
+  constexpr double kClear = 0.99;
+  if (x >= kClear * fastest && !(excess(fastest).length > 0.0)) return limits.speed;
   for (int i = 0; i < kSteps; ++i) {
-    const RampWay at = excess();
+    const RampWay at = excess(x);
     const double next = x - at.length / at.slope;
     if (!(next < x)) break;
     const bool last = x - next <= kLastStep * x;
@@ -125,6 +129,16 @@ double reachableInSteps(double speed, double length, const StraightLimits& limit
   if (std::isinf(limits.jerk)) return most;
   const double rest = length - change * std::min(std::max(speed, most), 0.5 * length / change);
   return std::min(most, reachableSpeed(speed, rest, limits));
+}
+
+// reachableInSteps() leaves at least half of the length for the change. Twice what a change needs
+// allows a change that is larger by a quarter or more, which no rounding hides.
+bool reachableWithRoom(double speed, double wanted, double length, const StraightLimits& limits,
+                       double leastStep) {
+  constexpr double kLessThanHalf = 0.49;
+  if (wanted > limits.speed) return false;
+  if (wanted * leastChangeTime(limits, leastStep) > kLessThanHalf * length) return false;
+  return wanted <= speed || changeLength(speed, wanted, limits) <= 0.25 * length;
 }
 
 StraightProfile fastestProfile(double from, double to, double length,

@@ -24,6 +24,11 @@ double reachableSpeed(double speed, double length, const StraightLimits& limits)
 double reachableInSteps(double speed, double length, const StraightLimits& limits,
                         double leastStep);
 
+/// Whether a speed is one that reachableInSteps() allows, with room to spare: the change takes at
+/// most a quarter of the length. False says nothing.
+bool reachableWithRoom(double speed, double wanted, double length, const StraightLimits& limits,
+                       double leastStep);
+
 /// s. The least time for a change of speed whose points have `leastStep` between them.
 double leastChangeTime(const StraightLimits& limits, double leastStep);
 
