@@ -9,7 +9,7 @@ namespace swept::detail {
 namespace {
 
 /// Begins of orders that are looked at for the next one.
-constexpr std::size_t kMostSteps = 10'000;
+constexpr std::size_t kMostBegins = 10'000;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool PriorityOrders::extend(Order& order, std::set<std::size_t>& taken, std::siz
   if (order.size() == tasks_) return !tried_.contains(order);
   for (std::size_t task = 0; task < tasks_; ++task) {
     if (taken.contains(task) || mayFail(task, taken)) continue;
-    if (++steps > kMostSteps) return false;
+    if (++steps > kMostBegins) return false;
     order.push_back(task);
     taken.insert(task);
     if (extend(order, taken, steps)) return true;

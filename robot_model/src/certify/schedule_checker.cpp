@@ -82,53 +82,54 @@ void requireLateness(double delay, double slowest, const std::vector<ScheduledCu
                    " s of its own time; with a slowdown, allowed are 0 and later");
 }
 
-/// How much later one curve may be at what it does on time.
-struct Lateness {
-  double delay = 0.0;    ///< s
-  double slowest = 1.0;  ///< factor
-  ///@{
-  /// s. The others have all of their starts between the two: a slowdown counts from there on.
-  double firstStart = 0.0, lastStart = 0.0;
-  ///@}
-
-  /// s, of the own curve, where it is at `time` (s) of its own.
-  double ofOwn(double time) const { return delay + (slowest - 1.0) * time; }
-  /// s, of others, when the clock shows `time` (s): they do what they did that much earlier. What
-  /// starts at s and is late by d does at s + d + f (t - s) what it did at t. So t is no less than
-  /// s + (time - s - d) / f where that has begun.
-  double ofOthers(double time) const {
-    return std::max(delay, delay / slowest + (1.0 - 1.0 / slowest) * (time - firstStart));
-  }
-  /// s. When the last of others ends whose end is at `time` (s).
-  double lastOf(double time) const { return delay + firstStart + slowest * (time - firstStart); }
-  /// s, of the own curve. Before this, no other can be late by `late` (s), give or take `half`;
-  /// early, where it is negative.
-  double firstWith(double late, double half) const { return firstWith(late, half, firstStart); }
-  /// s. From here on, all others can be late, or early, by `late`.
-  double surelyWith(double late) const { return firstWith(late, 0.0, lastStart); }
-
- private:
-  double firstWith(double late, double half, double start) const {
-    const double least = (std::abs(late) - half) / detail::kArithmeticOutward;
-    if (least <= delay * detail::kArithmeticOutward) return 0.0;
-    const double own = (least - delay * detail::kArithmeticOutward) / (slowest - 1.0);
-    return (late < 0.0 ? own : own * slowest + delay + start) / detail::kArithmeticOutward;
-  }
-};
-
-/// Of these curves.
-Lateness latenessOf(double delay, double slowest, const std::vector<ScheduledCurve>& others) {
-  Lateness lateness{.delay = delay, .slowest = slowest};
-  if (others.empty()) return lateness;
-  const auto [first, last] = std::ranges::minmax(others, {}, &ScheduledCurve::start);
-  lateness.firstStart = first.start;
-  lateness.lastStart = last.start;
-  return lateness;
-}
-
 }  // namespace
 
 struct ScheduleChecker::Data {
+  /// How much later one curve may be at what it does on time.
+  struct Lateness {
+    double delay = 0.0;    ///< s
+    double slowest = 1.0;  ///< factor
+    ///@{
+    /// s. The others have all of their starts between the two: a slowdown counts from there on.
+    double firstStart = 0.0, lastStart = 0.0;
+    ///@}
+
+    /// s, of the own curve, where it is at `time` (s) of its own.
+    double ofOwn(double time) const { return delay + (slowest - 1.0) * time; }
+    /// s, of others, when the clock shows `time` (s): they do what they did that much earlier. What
+    /// starts at s and is late by d does at s + d + f (t - s) what it did at t. So t is no less
+    /// than s + (time - s - d) / f where that has begun.
+    double ofOthers(double time) const {
+      return std::max(delay, delay / slowest + (1.0 - 1.0 / slowest) * (time - firstStart));
+    }
+    /// s. When the last of others ends whose end is at `time` (s).
+    double lastOf(double time) const { return delay + firstStart + slowest * (time - firstStart); }
+    /// s, of the own curve. Before this, no other can be late by `late` (s), give or take `half`;
+    /// early, where it is negative.
+    double firstWith(double late, double half) const { return firstWith(late, half, firstStart); }
+    /// s. From here on, all others can be late, or early, by `late`.
+    double surelyWith(double late) const { return firstWith(late, 0.0, lastStart); }
+
+   private:
+    double firstWith(double late, double half, double start) const {
+      const double least = (std::abs(late) - half) / detail::kArithmeticOutward;
+      if (least <= delay * detail::kArithmeticOutward) return 0.0;
+      const double own = (least - delay * detail::kArithmeticOutward) / (slowest - 1.0);
+      return (late < 0.0 ? own : own * slowest + delay + start) / detail::kArithmeticOutward;
+    }
+  };
+
+  /// Of these curves.
+  static Lateness latenessOf(double delay, double slowest,
+                             const std::vector<ScheduledCurve>& others) {
+    Lateness lateness{.delay = delay, .slowest = slowest};
+    if (others.empty()) return lateness;
+    const auto [first, last] = std::ranges::minmax(others, {}, &ScheduledCurve::start);
+    lateness.firstStart = first.start;
+    lateness.lastStart = last.start;
+    return lateness;
+  }
+
   /// A checker that has room for others that are early or late by up to `half` (s).
   struct Tube {
     double half = 0.0;
