@@ -209,6 +209,17 @@ void lookAtPlace(const ExactRun& run, std::size_t body, double t, double half, d
   rows.accelerations.note(kAnyTarget, sqrt(squares[2]), joint.acceleration);
 }
 
+/// All joints of jointsSideBySide().
+template <typename AnyRows>
+void lookAtJoints(const ExactRun& run, double t, double half, double at, AnyRows& rows) {
+  lookAtTurn(run, 1, 0, t, half, at, rows);
+  lookAtTurn(run, 2, 0, t, half, at, rows);
+  lookAtSlide(run, 3, t, half, at, rows);
+  lookAtPlace(run, 4, t, half, at, rows);
+  lookAtTurn(run, 4, 2, t, half, at, rows);
+  lookAtPlace(run, 5, t, half, at, rows);
+}
+
 TEST(ErrorModel, Curves) {
   Rows rows;
   Random random(71);
@@ -221,14 +232,8 @@ TEST(ErrorModel, Curves) {
       const double half = i == 0 ? 0.0 : i == 1 ? 0.5 : random.scale(1e-6, 0.5);
       const double t = half == 0.5 ? 0.5 : random.uniform(half, 1.0 - half);
       ASSERT_TRUE(run.look(t, half));
-      for (const double at : {-1.0, 1.0, random.uniform(-1.0, 1.0)}) {
-        lookAtTurn(run, 1, 0, t, half, at, rows);
-        lookAtTurn(run, 2, 0, t, half, at, rows);
-        lookAtSlide(run, 3, t, half, at, rows);
-        lookAtPlace(run, 4, t, half, at, rows);
-        lookAtTurn(run, 4, 2, t, half, at, rows);
-        lookAtPlace(run, 5, t, half, at, rows);
-      }
+      for (const double at : {-1.0, 1.0, random.uniform(-1.0, 1.0)})
+        lookAtJoints(run, t, half, at, rows);
     }
   }
   EXPECT_GT(joined, 500);
@@ -252,14 +257,7 @@ TEST(ErrorModel, CurvesThatNearlyJoin) {
       const double t = knot + random.uniform(-0.9, 0.9) * half;
       if (t - half < 0.0 || t + half > 1.0) continue;
       ASSERT_TRUE(run.look(t, half));
-      for (const double at : {-1.0, 1.0}) {
-        lookAtTurn(run, 1, 0, t, half, at, rows);
-        lookAtTurn(run, 2, 0, t, half, at, rows);
-        lookAtSlide(run, 3, t, half, at, rows);
-        lookAtPlace(run, 4, t, half, at, rows);
-        lookAtTurn(run, 4, 2, t, half, at, rows);
-        lookAtPlace(run, 5, t, half, at, rows);
-      }
+      for (const double at : {-1.0, 1.0}) lookAtJoints(run, t, half, at, rows);
     }
   }
   EXPECT_GT(joined, 1000);
