@@ -212,8 +212,7 @@ class Benchmark {
 int main(int argc, char** argv) try {
   if (argc < 4) {
     std::cerr << "usage: schedule_benchmark URDF SRDF GROUP [RADIUS [SCHEDULES [DELAY [SAMPLES "
-                 "[SLOWEST]]]]]"
-                 "\n";
+                 "[SLOWEST]]]]]\n";
     return 1;
   }
   const double radius = argc > 4 ? std::stod(argv[4]) : 0.5;

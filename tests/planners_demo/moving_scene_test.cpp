@@ -142,15 +142,14 @@ TEST_F(MovingScene, RulesMayNameIt) {
 TEST_F(MovingScene, CommandsWithoutAClockRefuseIt) {
   const std::string clocks =
       " has no clock; swept check --time, motion --times, trajectory, schedule and view --time "
-      "have "
-      "one, and swept schedule --plan plans beside what moves\n";
+      "have one, and swept schedule --plan plans beside what moves\n";
   const std::string moves = kError + "object 'cart' of the scene moves, and swept ";
   EXPECT_EQ(run("plan", {"0,0", "2,0"}).err, moves + "plan" + clocks);
   EXPECT_EQ(run("certify", {csv("slide,lift\n0,0\n1,0\n")}).err, moves + "certify" + clocks);
 }
 
 TEST_F(MovingScene, APageShowsItWhereItIs) {
-  if (!programHasPages()) GTEST_SKIP() << "the program has no pages";
+  if (!programHasPages()) GTEST_SKIP() << "swept was built without three.js";
   const std::string page = gantry_.folder().path("page.html");
   const auto shown = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"-o", page});

@@ -46,11 +46,11 @@ CollisionRules defaultContactsOf(const Checker& checker) {
 /// Who asks for pairs that nothing but a default leaves out is told what else decides.
 void warnOfIdleFlag(const Arguments& args, const SrdfChoice& srdf, bool sceneHasMatrix,
                     Warnings& warnings) {
-  if (!args.keepDefaultContacts) return;
-  const std::string& decides = isWorkCell(args)    ? args.robot
-                               : srdf.file.empty() ? args.scene
-                                                   : srdf.file;
-  if (isWorkCell(args) || !srdf.file.empty() || sceneHasMatrix)
+  const std::string decides = isWorkCell(args)     ? args.robot
+                              : !srdf.file.empty() ? srdf.file
+                              : sceneHasMatrix     ? args.scene
+                                                   : std::string();
+  if (args.keepDefaultContacts && !decides.empty())
     warnings("swept: warning: --keep-default-contacts changes nothing: '" + decides +
              "' says which pairs are not checked");
 }

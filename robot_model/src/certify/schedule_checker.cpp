@@ -85,7 +85,7 @@ void requireLateness(double delay, double slowest, const std::vector<ScheduledCu
 }  // namespace
 
 struct ScheduleChecker::Data {
-  /// How much later one curve may be at what it does on time.
+  /// How much later one curve may be at what it does on time (L19).
   struct Lateness {
     double delay = 0.0;    ///< s
     double slowest = 1.0;  ///< factor
@@ -149,8 +149,8 @@ struct ScheduleChecker::Data {
   };
 
   Data(const Checker& whole, std::vector<std::string> ownNames, std::vector<ScheduledCurve> curves,
-       ConfigurationView still, const std::vector<std::string>& ignored, double slowest,
-       double delay)
+       ConfigurationView still, const std::vector<std::string>& ignored, double delay,
+       double slowest)
       : variables(std::move(ownNames)),
         places(placesIn(whole, variables)),
         others(std::move(curves)),
@@ -345,7 +345,7 @@ ScheduleChecker::ScheduleChecker(const Checker& checker, std::vector<std::string
   requireNames(checker, variables, others, still, ignored);
   requireLateness(delay, slowest, others);
   data_ = std::make_shared<const Data>(checker, std::move(variables), std::move(others), still,
-                                       ignored, slowest, delay);
+                                       ignored, delay, slowest);
 }
 
 TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, Workspace& workspace,

@@ -30,8 +30,9 @@ class ScheduleChecker {
   /// which nothing is known yet. Pairs with such a variable between the two bodies are left out.
   /// `delay` (s): what is proven holds also if the own curve, or all of the others, start late by
   /// up to so much; or each of the others by itself, where none carries another. `slowest`: it also
-  /// holds if these take up to so many times as long, as in DelayQuery. More room is needed for
-  /// that than delays take: ranges of delays are proven in tubes, down to a width of 0.02 rad or m.
+  /// holds if these take up to so many times as long, as in DelayQuery; with all of the others
+  /// slow, those of which one carries another have to start together. More room is needed for that
+  /// than delays take: ranges of delays are proven in tubes, down to a width of 0.02 rad or m.
   /// Moving obstacles keep their times: a curve that is late meets them later on their way.
   ///
   /// Throws std::invalid_argument as combinedCurve() does, without an own variable, for an own one
