@@ -77,10 +77,29 @@ TEST(Groups, AnSrdfThatAcmMakesSaysTheSame) {
   // One that names no pair has them checked: somebody has decided.
   const std::string none = bare.folder().write("none.srdf", "<robot name='bare'/>");
   EXPECT_EQ(bare.run("check", {"0,0", "--srdf", none}).exitCode, 1);
-  const Outcome idle = bare.run("check", {"0,0", "--srdf", none, "--keep-default-contacts"});
-  EXPECT_EQ(idle.exitCode, 1);
-  EXPECT_THAT(idle.err, HasSubstr("--keep-default-contacts changes nothing: '" + none +
-                                  "' says which pairs are not checked"));
+}
+
+TEST(Groups, AFlagThatChangesNothingSaysWhatDecides) {
+  const Bare bare;
+  const auto idle = [](const std::string& file) {
+    return "swept: warning: --keep-default-contacts changes nothing: '" + file +
+           "' says which pairs are not checked\n";
+  };
+  const std::string none = bare.folder().write("none.srdf", "<robot name='bare'/>");
+  EXPECT_THAT(bare.run("check", {"0,0", "--srdf", none, "--keep-default-contacts"}).err,
+              HasSubstr(idle(none)));
+  const std::string scene = bare.folder().write(
+      "scene.yaml",
+      "allowed_collision_matrix: {entry_names: [base, arm], entry_values: [[0, 1], [1, 0]]}\n"
+      "collision_objects: []\n");
+  const Outcome matrix =
+      bare.run("check", {"0,0", "--scene", scene, "--srdf", "none", "--keep-default-contacts"});
+  EXPECT_EQ(matrix.exitCode, 0) << matrix.err;
+  EXPECT_THAT(matrix.err, HasSubstr(idle(scene)));
+  const std::string cell = "models/cells/two_rooks.yaml";
+  EXPECT_EQ(runSwept({"check", cell, "home", "--group", "left/arm", "--keep-default-contacts"}).err,
+            idle(cell));
+  EXPECT_EQ(bare.run("check", {"0,0", "--keep-default-contacts"}).err, "");
 }
 
 TEST(Groups, AProofSaysWhatItLeavesOutAndIsAboutTheSamePairs) {
